@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "engine/layer.h"
+#include "engine/model.h"
+#include "engine/pointcloud/patch_lists.h"
+#include "engine/slice_options.h"
+
+namespace lamina::engine {
+
+/// The model cannot be sliced with these options. The message says what to change.
+struct SliceError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Slices a model by the point-cloud method of chapter six, plane by plane. Holds the patches and the point
+/// cloud of the current plane only; a layer belongs to the caller.
+class Slicer {
+ public:
+  /// Planes must rise. Throws SliceError when an option is out of its range or a plane lies below its
+  /// predecessor.
+  Slicer(const Model& model, std::vector<SlicePlane> planes, const SliceOptions& options);
+
+  /// The next layer, or nothing after the last plane. A plane that misses the model gives a layer without
+  /// contours. Throws SliceError when the grid would exceed `most_cells`.
+  std::optional<Layer> next();
+
+  std::size_t layer_count() const { return planes_.size(); }
+  std::size_t patch_count() const { return global_list_.size(); }
+
+ private:
+  SliceOptions options_;
+  std::vector<SlicePlane> planes_;
+  std::vector<ListedPatch> global_list_;
+  ActiveList active_;
+  std::size_t next_plane_ = 0;
+};
+
+/// Box around the model's surfaces themselves, to a micrometre (patches of `layer_thickness` are not needed
+/// for it).
+Box3 model_bounds(const Model& model);
+
+}  // namespace lamina::engine

@@ -1,0 +1,116 @@
+#include "engine/import/read_model.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "engine/import/gzip.h"
+#include "tests/engine/import/reading.h"
+
+using namespace lamina::engine;
+using namespace lamina::tests;
+
+namespace {
+
+const std::string kText =
+    iges_text({{128,
+                "1,1,1,1,0,0,1,0,0,0.,0.,1.,1.,0.,0.,1.,1.,1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,0.,1.,"
+                "0.,1.,1.,0.,0.,1.,0.,1."}});
+
+std::string gzipped(const std::string& text) {
+  z_stream stream{};
+  REQUIRE(deflateInit2(&stream, 9, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY) == Z_OK);
+  std::string packed(deflateBound(&stream, text.size()) + 64, '\0');
+  std::string input = text;
+  stream.next_in = reinterpret_cast<Bytef*>(input.data());
+  stream.avail_in = static_cast<uInt>(input.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  REQUIRE(deflate(&stream, Z_FINISH) == Z_STREAM_END);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+/// A folder of its own that goes when the test ends.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("lamina-import-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { std::filesystem::remove_all(path_); }
+
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return path_ / name;
+  }
+
+  std::filesystem::path path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string error_reading(const std::filesystem::path& path) {
+  try {
+    read_model(path);
+  } catch (const ImportError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("plain and gzip files, whatever they are called, give the same model") {
+  const Folder folder;
+  for (const auto& [name, bytes] :
+       std::vector<std::pair<std::string, std::string>>{{"wheel.igs", kText},
+                                                        {"wheel.IGES", kText},
+                                                        {"wheel.igs.gz", gzipped(kText)},
+                                                        {"wheel.igs", gzipped(kText)},
+                                                        {"wheel.dat", kText},
+                                                        {"wheel", kText}}) {
+    INFO(name);
+    const ImportResult result = read_model(folder.write(name, bytes));
+    CHECK(result.model.name == "wheel");
+    CHECK(result.model.surfaces.size() == 1);
+    CHECK(result.report.format == "IGES");
+  }
+}
+
+TEST_CASE("files that are no IGES are refused with what they are") {
+  const Folder folder;
+  CHECK(error_reading(folder.path() / "none.igs").find("none.igs: no such file") == 0);
+  CHECK(error_reading(folder.path()).find("is a folder") != std::string::npos);
+  CHECK(error_reading(folder.write("empty.igs", "")) == "empty.igs: is empty");
+  CHECK(error_reading(folder.write("part.igs", "ISO-10303-21;\nHEADER;"))
+            .find("part.igs: holds STEP; only IGES") == 0);
+  CHECK(error_reading(folder.write("part.stl", "solid part\nfacet")).find("part.stl: holds STL") == 0);
+  CHECK(error_reading(folder.write("part.xyz", "1 2 3\n")).find("no model format that lamina knows") !=
+        std::string::npos);
+  CHECK(error_reading(folder.write("part.igs", "1 2 3\n")).find("part.igs: file line 1") == 0);
+}
+
+TEST_CASE("gzip: several members, damage, and a bound on the size") {
+  const std::string text(300000, 'x');
+  const std::string packed = gzipped(text);
+  CHECK(inflate_gzip(packed, "a.gz", 1 << 20) == text);
+  CHECK(inflate_gzip(packed + gzipped("end"), "a.gz", 1 << 20) == text + "end");
+  CHECK(inflate_gzip(packed, "a.gz", text.size()) == text);
+  CHECK_THROWS_WITH(inflate_gzip(packed, "a.gz", text.size() - 1),
+                    Catch::StartsWith("a.gz: inflates to more than 299999 bytes"));
+  CHECK_THROWS_WITH(inflate_gzip(packed.substr(0, packed.size() / 2), "a.gz", 1 << 20),
+                    Catch::Contains("cut short"));
+  std::string damaged = packed;
+  for (std::size_t i = 20; i < 60 && i < damaged.size(); ++i)
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x5a);
+  CHECK_THROWS_AS(inflate_gzip(damaged, "a.gz", 1 << 20), ImportError);
+}
