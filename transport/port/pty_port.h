@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "transport/port/descriptor_port.h"
+
+namespace lamina::transport {
+
+/// An existing pseudo-terminal (an emulated printer), opened raw by termios. libserialport refuses these: it
+/// looks names up in sysfs, where they have no entry.
+class PtyPort : public DescriptorPort {
+ public:
+  /// Opens `path` for this program alone, and drops what lay unread in it. Throws PortError.
+  explicit PtyPort(const std::string& path);
+  ~PtyPort() override;
+
+  void close() override;
+};
+
+}  // namespace lamina::transport

@@ -1,0 +1,220 @@
+// What the protocol engine makes of each reply of the printer; protocol_engine.cpp has the rest.
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "transport/protocol/protocol_engine.h"
+
+namespace lamina::transport {
+
+namespace {
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (const char c : text) shown += c >= ' ' && c <= '~' ? c : '?';
+  return shown;
+}
+
+}  // namespace
+
+void ProtocolEngine::handle(const Reply& reply, Instant now) {
+  if (state_ == EngineState::kIdle || state_ == EngineState::kEnded) return;
+
+  const bool is_ok = std::holds_alternative<OkReply>(reply);
+  const bool is_resend = std::holds_alternative<ResendReply>(reply);
+  // Error, Resend and ok come in one piece. An ok straight after the error means that the Resend line was
+  // damaged.
+  if (announced_error_ && is_ok && state_ != EngineState::kGreeting && state_ != EngineState::kSettling) {
+    announced_error_.reset();
+    if (state_ != EngineState::kProbing) start_probe(now, options_.drain_quiet);
+    return;
+  }
+
+  if (const auto* ok = std::get_if<OkReply>(&reply)) handle_ok(*ok, now);
+  if (const auto* resend = std::get_if<ResendReply>(&reply)) handle_resend(*resend, now);
+  if (const auto* error = std::get_if<ErrorReply>(&reply)) handle_error(*error, now);
+  if (const auto* unknown = std::get_if<UnknownCommandReply>(&reply)) handle_unknown_command(*unknown, now);
+  if (std::holds_alternative<StartReply>(reply)) handle_start(now);
+  if (std::holds_alternative<WaitReply>(reply)) handle_wait(now);
+  if (std::holds_alternative<BusyReply>(reply)) {
+    busy_lines_seen_ = true;
+    last_progress_ = now;
+    if (state_ == EngineState::kProbing) attempts_ = 0;
+  }
+  if (const auto* temperatures = std::get_if<TemperatureReport>(&reply)) {
+    // Inside M109 and M190 only; automatic reports flow whatever the command queue does.
+    if (temperatures->waiting) last_progress_ = now;
+  }
+  if (is_resend) announced_error_.reset();
+}
+
+void ProtocolEngine::handle_ok(const OkReply& ok, Instant now) {
+  if (state_ == EngineState::kWaitingForStart) return;
+  if (state_ == EngineState::kGreeting) {
+    if (resend_ok_until_) {
+      resend_ok_until_.reset();
+      return;
+    }
+    state_ = EngineState::kSettling;
+    due_ = now + options_.greeting_quiet;
+    return;
+  }
+  if (state_ == EngineState::kSettling) {
+    due_ = now + options_.greeting_quiet;
+    return;
+  }
+
+  const bool plain = !ok.number && !ok.temperatures;
+  if (plain && resend_ok_until_) {
+    const bool in_time = now <= *resend_ok_until_;
+    resend_ok_until_.reset();
+    if (in_time) {
+      if (state_ == EngineState::kDraining) due_ = now + options_.drain_quiet;
+      return;
+    }
+  }
+  if (plain && stray_ok_follows_) {
+    stray_ok_follows_ = false;
+    return;
+  }
+
+  std::vector<OutstandingLine> acknowledged;
+  if (ok.number) {
+    numbered_oks_seen_ = true;
+    acknowledged = outstanding_.acknowledge_up_to(*ok.number);
+  } else if (ok.temperatures) {
+    acknowledged = outstanding_.acknowledge_temperature_report();
+  } else if (!outstanding_.empty() && !(numbered_oks_seen_ && outstanding_.oldest().number)) {
+    // A firmware that numbers its oks leaves the number away only where the line had none.
+    if (const auto oldest = outstanding_.acknowledge_oldest()) acknowledged.push_back(*oldest);
+  }
+  if (acknowledged.empty()) {
+    stray("ok");
+    return;
+  }
+  for (const OutstandingLine& line : acknowledged) acknowledge(line);
+  last_progress_ = now;
+  fruitless_probes_ = 0;
+  if (state_ == EngineState::kProbing && !question_sent_ && outstanding_.empty()) {
+    // It was only late. Nothing has been asked yet, so no answer is under way.
+    state_ = EngineState::kDraining;
+    due_ = now + options_.drain_quiet;
+  }
+}
+
+void ProtocolEngine::handle_resend(const ResendReply& resend, Instant now) {
+  resend_ok_until_ = now + options_.resend_ok_wait;
+  const LineNumber wanted = resend.number;
+  const bool consistent = announced_error_ && announced_error_->last_line == wanted - 1;
+  switch (state_) {
+    case EngineState::kGreeting:
+      // The greeting itself was damaged, or glued to what lay in the firmware's buffer.
+      due_ = now + options_.drain_quiet;
+      return;
+    case EngineState::kSettling:
+      due_ = now + options_.greeting_quiet;
+      return;
+    case EngineState::kProbing:
+      // Believed when the error line says the same, or when it is said twice.
+      if (question_sent_ && (consistent || last_probe_answer_ == wanted)) {
+        conclude_probe(wanted, now);
+      } else {
+        last_probe_answer_ = wanted;
+      }
+      return;
+    case EngineState::kStreaming:
+    case EngineState::kDraining:
+      break;
+    default:
+      return;
+  }
+  if (state_ == EngineState::kDraining && wanted == cursor_) {
+    // Lines behind the damaged one were still on the wire; each is refused in the same words.
+    due_ = now + options_.drain_quiet;
+    return;
+  }
+  const bool plausible = wanted >= acknowledged_next_ && wanted <= cursor_;
+  if (!consistent && !plausible) {
+    start_probe(now, options_.drain_quiet);
+    return;
+  }
+  if (wanted == cursor_) {
+    // Nothing was lost: an answer to a probe that came late, or noise between lines.
+    stray(fmt::format("Resend: {}", wanted));
+    return;
+  }
+  events_.emplace_back(ResendRequested{wanted, announced_error_ ? printable(announced_error_->text) : ""});
+  go_back_to(wanted, now);
+}
+
+void ProtocolEngine::handle_error(const ErrorReply& error, Instant now) {
+  switch (error.severity) {
+    case ErrorClass::kFatal:
+      end(EndReason::kHalted,
+          fmt::format("the printer has stopped: {}; switch it off and on when the cause is gone",
+                      printable(error.text)));
+      return;
+    case ErrorClass::kProtocol:
+      announced_error_ = error;
+      if (state_ == EngineState::kDraining) due_ = now + options_.drain_quiet;
+      return;
+    case ErrorClass::kWarning:
+      return;
+  }
+}
+
+void ProtocolEngine::handle_unknown_command(const UnknownCommandReply& unknown, Instant now) {
+  if (state_ == EngineState::kGreeting) {
+    // A damaged greeting, run as something else.
+    resend_ok_until_ = now + options_.resend_ok_wait;
+    due_ = now + options_.drain_quiet;
+    return;
+  }
+  if (state_ != EngineState::kStreaming && state_ != EngineState::kDraining &&
+      state_ != EngineState::kProbing)
+    return;
+  const bool ours =
+      std::any_of(outstanding_.lines().begin(), outstanding_.lines().end(), [&](const OutstandingLine& line) {
+        return line.number && history_.at(*line.number).command == unknown.command;
+      });
+  if (ours) return;
+  stray(unknown.command);
+  if (!numbered_oks_seen_) stray_ok_follows_ = true;
+  if (state_ == EngineState::kDraining) due_ = now + options_.drain_quiet;
+  // Part of a line ran as a command, so some line did not arrive.
+  if (state_ == EngineState::kStreaming) start_probe(now, options_.drain_quiet);
+}
+
+void ProtocolEngine::handle_start(Instant now) {
+  switch (state_) {
+    case EngineState::kWaitingForStart:
+      due_ = now + options_.greeting_quiet;
+      return;
+    case EngineState::kGreeting:
+    case EngineState::kSettling:
+      attempts_ = 0;
+      state_ = EngineState::kWaitingForStart;
+      due_ = now + options_.greeting_quiet;
+      return;
+    default:
+      end(EndReason::kRestarted,
+          "the printer has restarted in the middle of the print; its heaters are off and its position is "
+          "lost");
+  }
+}
+
+void ProtocolEngine::handle_wait(Instant now) {
+  // The firmware is idle. If a line was sent a while ago, either it or its ok is lost.
+  const bool lost = state_ == EngineState::kStreaming && !outstanding_.empty() &&
+                    now >= last_sent_ + options_.timeouts.probe;
+  if (lost) start_probe(now, options_.drain_quiet);
+}
+
+void ProtocolEngine::stray(const std::string& text) {
+  ++statistics_.stray_replies;
+  events_.emplace_back(StrayReply{printable(text)});
+}
+
+}  // namespace lamina::transport
