@@ -1,0 +1,47 @@
+// The numbers that ARCHITECTURE.md tells along the way of one model.
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "engine/import/read_model.h"
+#include "engine/slicer.h"
+#include "engine/slicing_planes.h"
+#include "gcode/region/layer_region.h"
+#include "tests/support/corpus.h"
+
+using namespace lamina;
+
+TEST_CASE("the vertebra's way through the house, with the numbers of ARCHITECTURE.md", "[story]") {
+  const engine::ImportResult import = engine::read_model(tests::data_file("vertebra504.igs.gz"));
+  CHECK(import.model.surfaces.size() == 504);
+
+  const engine::Box3 bounds = engine::model_bounds(import.model);
+  engine::Slicer slicer(import.model, engine::make_slicing_planes(bounds.min().z(), bounds.max().z(), {}),
+                        {});
+  CHECK(slicer.patch_count() == 89401);
+  CHECK(slicer.layer_count() == 94);
+
+  std::optional<engine::Layer> layer;
+  while ((layer = slicer.next()) && layer->index < 50) {
+  }
+  REQUIRE(layer);
+  CHECK(layer->plane.z == Approx(10.0995).margin(1e-4));
+  CHECK(layer->report.active_patches == 1860);
+  CHECK(layer->report.patches_added == 1478);
+  CHECK(layer->report.points_held == 100917);
+  CHECK(layer->report.points_near_plane == 39671);
+  CHECK(layer->report.strong_cells == 2760);
+  CHECK(layer->report.components == 2);
+  CHECK(layer->report.boundary_cells == 2381);
+  CHECK(layer->report.control_points == 208);
+  CHECK(layer->closed.size() == 2);
+
+  const gcode::LayerRegion region = gcode::make_region(*layer, {});
+  REQUIRE(region.region.size() == 1);
+  CHECK(region.region.front().holes.size() == 1);
+  CHECK(engine::area(region.region) == Approx(328.2).margin(0.1));
+}

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/slicer.h"
+#include "gcode/gcode_stream.h"
+#include "profiles/settings.h"
+#include "tools/cli/placement.h"
+
+namespace lamina::tools {
+
+/// What slicing could not do perfectly, summed over the layers.
+struct SlicingFlaws {
+  std::size_t unfitted_curves = 0;
+  std::size_t dropped_spurs = 0;
+  std::size_t empty_layers = 0;  ///< Planes inside the model that meet nothing.
+};
+
+/// The way from a placed model to G-code, pulled layer by layer: planes -> contours -> toolpaths -> lines.
+/// What it holds does not grow with the number of layers.
+class ModelGcode {
+ public:
+  /// Throws SliceError, FitError, PlanError, TemplateError, Failure.
+  ModelGcode(const PlacedModel& placed, const profiles::Settings& settings);
+
+  /// The lines of the next step, without line feeds: those before the first layer, those that follow from one
+  /// more layer (perhaps none yet), and those after the last. Nothing when all is told.
+  std::optional<std::vector<std::string>> next();
+
+  std::size_t layer_count() const { return slicer_.layer_count(); }
+  std::size_t layers_sliced() const { return layers_sliced_; }
+  const SlicingFlaws& flaws() const { return flaws_; }
+
+  /// Complete when `next` has returned nothing.
+  const gcode::PrintTotals& totals() const { return stream_.totals(); }
+
+ private:
+  enum class Step { kHeader, kLayers, kDone };
+
+  engine::Slicer slicer_;
+  gcode::GcodeStream stream_;
+  Step step_ = Step::kHeader;
+  std::size_t layers_sliced_ = 0;
+  SlicingFlaws flaws_;
+};
+
+/// The planes of a model of these bounds. Throws Failure where there are too many.
+std::vector<engine::SlicePlane> slicing_planes(const engine::Box3& bounds,
+                                               const engine::SlicingPlanesOptions& options);
+
+/// What the user should know of the slicing: one sentence each.
+std::vector<std::string> slicing_warnings(const SlicingFlaws& flaws);
+
+/// And of the print that came of it.
+std::vector<std::string> print_warnings(const SlicingFlaws& flaws, const gcode::PrintTotals& totals);
+
+}  // namespace lamina::tools

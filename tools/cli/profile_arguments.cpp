@@ -1,0 +1,58 @@
+#include "tools/cli/profile_arguments.h"
+
+#include <cstdlib>
+
+namespace lamina::tools {
+
+void SlicingArguments::declare(OptionSet& options) {
+  options.text("--layer-height", layer_height, "MM", "Layer thickness (layer.height)");
+  options.text("--tolerance", tolerance, "MM", "Accuracy inside a layer (slicing.tolerance)");
+  options.text("--degree", degree, "N", "Degree of the contours' curves, 1 to 9 (slicing.degree)");
+  options.text("--band", band, "N", "Layers that a patch spans on average (slicing.band_constant)");
+  options.text("--oversampling", oversampling, "FACTOR", "Samples per needed sample (slicing.oversampling)");
+  options.text("--slice-at", slice_at, "bottom|middle|top",
+               "Where a plane cuts its layer (slicing.position)");
+}
+
+std::vector<profiles::Assignment> SlicingArguments::assignments() const {
+  struct Option {
+    const char* name;
+    const char* key;
+    const std::optional<std::string>& value;
+  };
+  std::vector<profiles::Assignment> result;
+  for (const Option& option :
+       {Option{"--layer-height", "layer.height", layer_height},
+        Option{"--tolerance", "slicing.tolerance", tolerance}, Option{"--degree", "slicing.degree", degree},
+        Option{"--band", "slicing.band_constant", band},
+        Option{"--oversampling", "slicing.oversampling", oversampling},
+        Option{"--slice-at", "slicing.position", slice_at}}) {
+    if (!option.value) continue;
+    result.push_back({option.key, *option.value, std::string(option.name) + " " + *option.value});
+  }
+  return result;
+}
+
+void ProfileArguments::declare(OptionSet& options) {
+  options.text("-p,--printer", choice.printer, "NAME",
+               "Printer profile, or a .toml file [generic_marlin_220]");
+  options.text("-f,--filament", choice.filament, "NAME", "Filament profile, or a .toml file [pla]");
+  options.text("-q,--quality", choice.quality, "NAME", "Quality profile, or a .toml file [normal]");
+  options.texts("-s,--set", settings, "KEY=VALUE",
+                "One setting, such as infill.density=20; repeatable ('lamina profiles show' lists the keys)");
+}
+
+profiles::ProfileStore profile_store() {
+  const char* const search_path = std::getenv("LAMINA_PROFILE_PATH");
+  return profiles::ProfileStore(profiles::split_search_path(search_path != nullptr ? search_path : ""));
+}
+
+profiles::ResolvedProfile resolve(const ProfileArguments& profile, const SlicingArguments& slicing) {
+  profiles::ProfileChoice choice = profile.choice;
+  choice.assignments = slicing.assignments();
+  for (const std::string& setting : profile.settings)
+    choice.assignments.push_back(profiles::parse_assignment(setting));
+  return profiles::resolve(profile_store(), choice);
+}
+
+}  // namespace lamina::tools

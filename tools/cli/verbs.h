@@ -1,0 +1,14 @@
+#pragma once
+
+#include "tools/cli/command_line.h"
+
+namespace lamina::tools {
+
+Verb slice_verb();
+Verb print_verb();
+Verb emulate_verb();
+Verb contours_verb();
+Verb info_verb();
+Verb profiles_verb();
+
+}  // namespace lamina::tools
