@@ -123,7 +123,7 @@ TEST_CASE("the JSON result agrees with the file") {
   CHECK(json["filament_g"].get<double>() == Approx(most * area / 1000.0 * 1.24).epsilon(1e-4));
 }
 
-TEST_CASE("--picture draws six layers, first and last among them") {
+TEST_CASE("the option --picture draws six layers, first and last among them") {
   const WorkFolder folder;
   const ProgramRun run = run_lamina(folder, "slice " + model_file("box.igs") + " --picture layers.svg");
   REQUIRE(run.exit_code == 0);
