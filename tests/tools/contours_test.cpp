@@ -139,7 +139,7 @@ TEST_CASE("without a choice of output: a table, one line per layer") {
   CHECK_THAT(run.out, Contains("     1     3.7500"));
 }
 
-TEST_CASE("the option --scale scales about the model's origin; a height outside is said to miss") {
+TEST_CASE("the option --scale scales about the model's origin, and a height outside is said to miss") {
   const WorkFolder folder;
   const ProgramRun run =
       run_lamina(folder, "contours " + model_file("box.igs") + " --scale 2 --at 15,25 --json");

@@ -167,9 +167,9 @@ ExitCode run(const ContoursArguments& arguments) {
                               bounds.min().z(), bounds.max().z())});
   }
 
+  bar.begin("Slicing " + model.name);
   engine::Slicer slicer(model, planes, settings.slice);
   ContoursOutput output(arguments, model, bounds, settings.slice.epsilon);
-  bar.begin("Slicing " + model.name);
   SlicingFlaws flaws;
   while (const std::optional<engine::Layer> layer = slicer.next()) {
     output.add(*layer);

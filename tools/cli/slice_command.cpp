@@ -62,12 +62,12 @@ ExitCode run(const SliceArguments& arguments) {
   const std::string path = arguments.output.empty() ? import.model.name + ".gcode" : arguments.output;
   const Overwrite overwrite = arguments.force ? Overwrite::kAllow : Overwrite::kRefuse;
   name_print(profile.settings, import.model.name);
-  ModelGcode gcode(place(import.model, arguments.placement, profile.settings.gcode.volume), profile.settings);
+  const PlacedModel placed = place(import.model, arguments.placement, profile.settings.gcode.volume);
   OutputFile output(path, overwrite);
+  bar.begin("Slicing " + import.model.name);
+  ModelGcode gcode(placed, profile.settings);
   gcode::GcodeReader written(profile.settings.gcode.limits);
   GcodePicture picture(arguments.picture.empty() ? 0 : gcode.layer_count(), kPictures);
-
-  bar.begin("Slicing " + import.model.name);
   while (const auto lines = gcode.next()) {
     for (const std::string& line : *lines) {
       output.write_line(line);

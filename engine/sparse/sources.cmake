@@ -1,0 +1,17 @@
+set(LAMINA_ENGINE_SPARSE_SOURCES
+  sparse/bezier_spans.cpp
+  sparse/bridge_gaps.cpp
+  sparse/chain_orientation.cpp
+  sparse/in_plane.cpp
+  sparse/link_arcs.cpp
+  sparse/meetings.cpp
+  sparse/patch_front.cpp
+  sparse/patch_point.cpp
+  sparse/patch_section.cpp
+  sparse/planar_faces.cpp
+  sparse/planar_graph.cpp
+  sparse/point_index.cpp
+  sparse/segment_curve.cpp
+  sparse/sparse_slicer.cpp
+  sparse/tile_grid.cpp
+  sparse/unite_chains.cpp)
