@@ -3,7 +3,7 @@
 add_compile_options(-Wall -Wextra -Wconversion -Wshadow -Werror -ffp-contract=off)
 
 # GCC 12 reports overlapping copies in "literal" + std::string at -O3, where there are none (GCC bug 105651).
-add_compile_options(-Wno-restrict)
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
 if(LAMINA_SANITIZE)
   # GCC 12 sees uninitialised members in std::regex once it is instrumented.

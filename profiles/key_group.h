@@ -62,7 +62,7 @@ class KeyGroup {
   /// `choices` name the enumerators in their order, from 0.
   template <class Enum>
   requires std::is_enum_v<Enum> Key choice(const std::string& key, Enum Options::*member,
-                                           std::vector<std::string> choices, std::string meaning)
+                                           const std::vector<std::string>& choices, std::string meaning)
   const {
     Key result = make(key, ValueType::kChoice, std::move(meaning), member);
     result.choices = choices;
@@ -88,9 +88,7 @@ class KeyGroup {
     result.meaning = std::move(meaning);
     result.load = [find = find_, member](const Settings& settings) -> Value {
       Settings copy = settings;
-      if constexpr (std::integral<Member> && !std::same_as<Member, bool>) {
-        return static_cast<std::int64_t>(find(copy).*member);
-      } else if constexpr (std::is_enum_v<Member>) {
+      if constexpr (!std::same_as<Member, bool> && (std::integral<Member> || std::is_enum_v<Member>)) {
         return static_cast<std::int64_t>(find(copy).*member);
       } else {
         return find(copy).*member;

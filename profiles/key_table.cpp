@@ -387,8 +387,8 @@ std::vector<Key> all_keys() {
 }  // namespace
 
 const std::vector<Key>& key_table() {
-  static const std::vector<Key> kTable = all_keys();
-  return kTable;
+  static const std::vector<Key> table = all_keys();
+  return table;
 }
 
 const Key& find_key(std::string_view name, const Origin& origin) {
@@ -398,6 +398,7 @@ const Key& find_key(std::string_view name, const Origin& origin) {
   if (found != table.end()) return *found;
 
   std::vector<std::string> names;
+  names.reserve(table.size());
   for (const Key& key : table) names.push_back(key.name);
   ProfileError::Fields fields;
   fields.origin = origin;

@@ -45,9 +45,9 @@ void apply_overrides(Resolver& resolver, const std::vector<Profile>& printers,
                      const std::vector<Profile>& chosen) {
   for (const Profile& overridden : chosen) {
     for (const Profile& printer : printers) {
-      for (const ProfileOverride& override_ : printer.overrides) {
-        if (override_.kind != overridden.kind || override_.name != overridden.name) continue;
-        resolver.set(override_.entry.key, override_.entry.value, override_.entry.origin);
+      for (const ProfileOverride& replaced : printer.overrides) {
+        if (replaced.kind != overridden.kind || replaced.name != overridden.name) continue;
+        resolver.set(replaced.entry.key, replaced.entry.value, replaced.entry.origin);
       }
     }
   }
@@ -55,16 +55,16 @@ void apply_overrides(Resolver& resolver, const std::vector<Profile>& printers,
 
 void check_override_names(const ProfileStore& store, const std::vector<Profile>& printers) {
   for (const Profile& printer : printers) {
-    for (const ProfileOverride& override_ : printer.overrides) {
-      const std::vector<std::string> known = store.names(override_.kind);
-      if (std::find(known.begin(), known.end(), override_.name) != known.end()) continue;
+    for (const ProfileOverride& replaced : printer.overrides) {
+      const std::vector<std::string> known = store.names(replaced.kind);
+      if (std::find(known.begin(), known.end(), replaced.name) != known.end()) continue;
       ProfileError::Fields fields;
-      fields.origin = override_.entry.origin;
-      fields.key = override_.entry.key;
-      fields.value = override_.name;
+      fields.origin = replaced.entry.origin;
+      fields.key = replaced.entry.key;
+      fields.value = replaced.name;
       fields.problem =
-          fmt::format("override for an unknown {} profile '{}'", to_text(override_.kind), override_.name);
-      fields.hint = suggestion(override_.name, known);
+          fmt::format("override for an unknown {} profile '{}'", to_text(replaced.kind), replaced.name);
+      fields.hint = suggestion(replaced.name, known);
       throw ProfileError(std::move(fields));
     }
   }

@@ -152,7 +152,7 @@ TEST_CASE("engine: start-up greets after start, or after waiting for it") {
   CHECK(bench.engine.next_number() == 1);
 }
 
-TEST_CASE("engine: a damaged greeting is repeated; silence ends it") {
+TEST_CASE("engine: a damaged greeting is repeated, silence ends it") {
   Bench bench;
   bench.engine.connect(bench.now);
   bench.wait(2500ms);
@@ -564,7 +564,7 @@ TEST_CASE("engine: a line asked for long after its ok is still held, up to a poi
   }
 }
 
-TEST_CASE("engine: after a resend one line at a time, later the window again; on a noisy link never again") {
+TEST_CASE("engine: after a resend one line at a time, later the window again, on a noisy link never again") {
   EngineOptions options;
   options.cautious_lines = 4;
   options.noisy_resends = 3;

@@ -244,7 +244,7 @@ TEST_CASE("curves: R gives the shorter way, negative R the longer") {
   CHECK_FALSE(arc_by_center(start, std::nullopt, std::nullopt, false, 0));
 }
 
-TEST_CASE("emulator: the volume deposited is filament times its area; retractions deposit nothing") {
+TEST_CASE("emulator: the volume deposited is filament times its area, retractions deposit nothing") {
   Run run;
   run.say("G90\nM83\n");
   run.say("G1 X10 Y0 E1 F1200\nG1 E-0.8\nG1 X20\nG1 E0.8\nG1 X20 Y10 E2\nG1 E-0.8\nG1 E1.0\n");

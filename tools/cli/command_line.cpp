@@ -62,7 +62,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
 void refuse_leftovers(const CLI::App& app) {
   const std::vector<std::string> leftovers = app.remaining();
   if (leftovers.empty()) return;
-  const std::string verb = app.get_name();
+  const std::string& verb = app.get_name();
   const std::string& first = leftovers.front();
   const std::string help = "'lamina help " + verb + "' lists the options";
   if (first.size() > 1 && first.front() == '-') {

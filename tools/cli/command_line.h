@@ -7,7 +7,7 @@
 
 #include "tools/cli/exit_codes.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's own name
 class App;
 }
 

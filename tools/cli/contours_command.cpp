@@ -65,6 +65,7 @@ std::vector<engine::SlicePlane> planes_at(std::vector<double> heights) {
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
   std::vector<engine::SlicePlane> planes;
+  planes.reserve(heights.size());
   for (const double z : heights) planes.push_back({z, z, z});
   return planes;
 }

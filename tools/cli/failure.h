@@ -11,8 +11,8 @@ namespace lamina::tools {
 /// their own types; see `report_failure`.
 class Failure : public std::runtime_error {
  public:
-  Failure(ExitCode exit_code, const std::string& message, std::string hint_ = {})
-      : std::runtime_error(message), code(exit_code), hint(std::move(hint_)) {}
+  Failure(ExitCode exit_code, const std::string& message, std::string what_to_do = {})
+      : std::runtime_error(message), code(exit_code), hint(std::move(what_to_do)) {}
 
   ExitCode code;
   std::string hint;  ///< What to do; empty without one.

@@ -83,8 +83,8 @@ void print_text(const engine::ImportResult& import, const engine::Box3& bounds, 
   std::cout << '\n';
   if (!bounds.isEmpty()) {
     const engine::Vector3 size = bounds.sizes();
-    const engine::Vector3 low = bounds.min();
-    const engine::Vector3 high = bounds.max();
+    const engine::Vector3& low = bounds.min();
+    const engine::Vector3& high = bounds.max();
     std::cout << fmt::format("size      {:.4g} x {:.4g} x {:.4g} mm\n", size.x(), size.y(), size.z());
     std::cout << fmt::format("box       ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) mm\n", low.x(),
                              low.y(), low.z(), high.x(), high.y(), high.z());
