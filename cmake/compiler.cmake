@@ -14,7 +14,7 @@ endif()
 
 if(LAMINA_TIDY)
   find_program(LAMINA_CLANG_TIDY clang-tidy REQUIRED)
-  set(CMAKE_CXX_CLANG_TIDY ${LAMINA_CLANG_TIDY} --quiet)
+  set(CMAKE_CXX_CLANG_TIDY ${LAMINA_CLANG_TIDY} --quiet --extra-arg=-Wno-unknown-warning-option)
 endif()
 
 # lamina_library(NAME folder SOURCES... LINK...): one static library per top-level folder, included from the root.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -118,9 +119,7 @@ bool print_table(const tools::DissertationModel& entry, const engine::Model& mod
   return within;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   constexpr int kSkipped = 77;
   Arguments arguments;
   bool quick = false;
@@ -149,4 +148,15 @@ int main(int argc, char** argv) {
     within = print_table(entry, engine::read_model(file).model, arguments) && within;
   }
   return within ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 1;
+  }
 }

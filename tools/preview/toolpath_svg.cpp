@@ -96,8 +96,9 @@ std::string toolpath_sheet_svg(const std::vector<PicturedLayer>& layers) {
                            engine::Vector2(pitch.x() * static_cast<double>(columns), 0.0));
   SvgPicture picture(sheet, kSheetWidth / sheet.sizes().x(), "toolpaths layer by layer");
   for (std::size_t i = 0; i < layers.size(); ++i) {
+    const std::size_t row = i / columns;
     const engine::Vector2 corner(pitch.x() * static_cast<double>(i % columns),
-                                 -pitch.y() * static_cast<double>(i / columns + 1));
+                                 -pitch.y() * static_cast<double>(row + 1));
     const engine::Vector2 offset = corner + engine::Vector2(0.0, 2.0 * caption) - frame.min();
     draw(picture, layers[i], offset);
     picture.text(corner + engine::Vector2(caption, caption / 2.0), caption,
