@@ -2,14 +2,16 @@
 
 namespace lamina::engine {
 
-/// How the model is cut and traced.
+/// How the model is cut and its contours are made into curves.
 struct SliceOptions {
-  double layer_thickness = 0.2;  ///< lambda, mm: sets the size of the patches
-  double epsilon = 0.05;         ///< side of a grid cell and accuracy inside a layer, mm
-  int degree = 2;                ///< of the fitted curves, 1 to 9
-  int band_constant = 3;         ///< c: layers that a patch spans on average, greater than one
-  double oversampling = 2.0;     ///< C_over, 1 to 10
-  double most_cells = 2e9;       ///< a layer grid larger than this is refused, not allocated
+  double epsilon = 0.05;     ///< tolerance: side of a grid cell and the accuracy promised in a layer, mm
+  double chord_part = 0.05;  ///< greatest distance of chords between nodes from the section, part of epsilon
+  double fit_part = 0.05;    ///< greatest distance of the fitted curves from the section, part of epsilon
+  int greatest_degree = 5;   ///< of the fitted curves, 2 to 5
+  double longest_bridge = 0.5;  ///< gaps up to this are closed and reported, mm
+  bool unite_all = false;       ///< every chain goes through the arrangement, whether it meets another or not
+  int threads = 1;              ///< that make layers at the same time; 0: one a core
+  double (*clock)() = nullptr;  ///< seconds from any start; where given, the stages' times are reported
 };
 
 /// Where inside its layer a plane cuts. The dissertation cuts at the bottom; the middle halves the stair-step

@@ -1,37 +1,27 @@
 #include "engine/slicer.h"
 
-#include <cmath>
+#include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "engine/contour/touch_cases.h"
-#include "engine/grid/mark_points.h"
-#include "engine/grid/separate.h"
-#include "engine/nurbs/bounds.h"
-#include "engine/pointcloud/decompose.h"
+#include "engine/layer_queue.h"
+#include "engine/pointcloud/patch_point.h"
 
 namespace lamina::engine {
 namespace {
 
-constexpr int kHighestDegree = 9;
-constexpr double kBoundsTolerance = 1e-3;
-
-void check(const SliceOptions& options, const std::vector<SlicePlane>& planes) {
-  if (!(options.layer_thickness > 0.0)) {
-    throw SliceError(fmt::format("layer thickness is {} mm: it must be positive", options.layer_thickness));
-  }
+void check(const Model& model, const std::vector<SlicePlane>& planes, const SliceOptions& options) {
   if (!(options.epsilon > 2.0 * kModelTolerance)) {
     throw SliceError(fmt::format("tolerance is {} mm: it must be above {} mm, twice the model tolerance",
                                  options.epsilon, 2.0 * kModelTolerance));
   }
-  if (options.degree < 1 || options.degree > kHighestDegree) {
-    throw SliceError(fmt::format("curve degree is {}: it must be 1 to {}", options.degree, kHighestDegree));
+  if (options.greatest_degree < 2 || options.greatest_degree > 5) {
+    throw SliceError(fmt::format("curve degree is {}: it must be 2 to 5", options.greatest_degree));
   }
-  if (options.band_constant < 2) {
-    throw SliceError(fmt::format("band constant is {}: it must be at least 2", options.band_constant));
-  }
-  if (!(options.oversampling >= 1.0 && options.oversampling <= 10.0)) {
-    throw SliceError(fmt::format("over-sampling is {}: it must be 1 to 10", options.oversampling));
+  if (options.threads < 0) {
+    throw SliceError(
+        fmt::format("thread count is {}: it must be positive, or 0 for one a core", options.threads));
   }
   for (std::size_t k = 1; k < planes.size(); ++k) {
     if (!(planes[k].z >= planes[k - 1].z)) {
@@ -39,107 +29,39 @@ void check(const SliceOptions& options, const std::vector<SlicePlane>& planes) {
                                    planes[k].z, planes[k - 1].z));
     }
   }
-}
-
-Box3 box_of(const std::vector<ListedPatch>& patches) {
-  Box3 box;
-  for (const ListedPatch& patch : patches) box.extend(patch.box);
-  return box;
-}
-
-std::vector<ListedPatch> listed_patches(const Model& model, const SliceOptions& options,
-                                        const std::vector<SlicePlane>& planes) {
-  check(options, planes);
-  return make_global_list(decompose(model, {options.layer_thickness, options.band_constant}));
-}
-
-double height_of(const std::vector<ListedPatch>& patches) {
-  const Box3 box = box_of(patches);
-  return box.isEmpty() ? 0.0 : box.sizes().z();
-}
-
-void check_grid_size(const std::vector<ListedPatch>& patches, const SliceOptions& options) {
-  const Box3 box = box_of(patches);
-  if (box.isEmpty()) return;
-  const Vector3 size = box.sizes();
-  const double cells = (size.x() / options.epsilon + 1.0) * (size.y() / options.epsilon + 1.0);
-  if (cells <= options.most_cells) return;
-  throw SliceError(
-      fmt::format("a layer of {:.6g} x {:.6g} mm has {:.3g} cells of {} mm: the limit is {:.3g}. Choose a "
-                  "tolerance of {:.2g} mm or "
-                  "more, or scale the model",
-                  size.x(), size.y(), cells, options.epsilon, options.most_cells,
-                  1.01 * std::sqrt(size.x() * size.y() / options.most_cells)));
-}
-
-void append(Layer& layer, ComponentContours contours) {
-  const auto move_all = [](auto& from, auto& to) {
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-  };
-  move_all(contours.closed, layer.closed);
-  move_all(contours.open, layer.open);
-  move_all(contours.planar, layer.planar);
-  move_all(contours.points, layer.points);
-  layer.report.boundary_cells += contours.boundary_cells;
-  layer.report.unfitted_curves += contours.unfitted_curves;
-  layer.report.dropped_spurs += contours.dropped_spurs;
-}
-
-std::size_t count_control_points(const Layer& layer) {
-  std::size_t count = 0;
-  for (const ClosedContour& contour : layer.closed) count += contour.curve.control_points.size();
-  for (const OpenContour& contour : layer.open) count += contour.curve.control_points.size();
-  for (const PlanarContour& contour : layer.planar) {
-    count += contour.outer.control_points.size();
-    for (const PlanarCurve& curve : contour.inner) count += curve.control_points.size();
+  for (const Surface& surface : model.surfaces) {
+    const int degree = std::max(surface.nurbs.degree_u, surface.nurbs.degree_v);
+    if (degree > kHighestPatchDegree) {
+      throw SliceError(fmt::format("the surface at directory line {} has degree {}: up to {} can be sliced",
+                                   surface.directory_line, degree, kHighestPatchDegree));
+    }
   }
-  return count;
+}
+
+std::vector<SlicePlane> checked(const Model& model, std::vector<SlicePlane> planes,
+                                const SliceOptions& options) {
+  check(model, planes, options);
+  return planes;
 }
 
 }  // namespace
 
 Slicer::Slicer(const Model& model, std::vector<SlicePlane> planes, const SliceOptions& options)
-    : options_(options),
-      planes_(std::move(planes)),
-      global_list_(listed_patches(model, options_, planes_)),
-      active_(global_list_, options_.layer_thickness, height_of(global_list_)) {
-  check_grid_size(global_list_, options_);
-}
+    : planes_(checked(model, std::move(planes), options)),
+      front_(model),
+      queue_(std::make_unique<LayerQueue>(options)) {}
+
+Slicer::~Slicer() = default;
+Slicer::Slicer(Slicer&&) noexcept = default;
+Slicer& Slicer::operator=(Slicer&&) noexcept = default;
 
 std::optional<Layer> Slicer::next() {
-  if (next_plane_ == planes_.size()) return std::nullopt;
-  Layer layer;
-  layer.index = next_plane_;
-  layer.plane = planes_[next_plane_++];
-  const double z = layer.plane.z;
-
-  active_.advance(global_list_, z, options_.epsilon, {options_.epsilon, options_.oversampling});
-  const MarkedGrid marked = make_layer_grid(global_list_, active_, z, options_.epsilon);
-  const std::vector<Component> components = separate(marked.grid);
-  for (const Component& component : components) {
-    layer.report.strong_cells += component.cells.size();
-    append(layer, make_contours(component_grid(marked.grid, component), component.touch(),
-                                {options_.epsilon, options_.degree}));
+  while (queue_->has_room() && next_plane_ < planes_.size()) {
+    const SlicePlane& plane = planes_[next_plane_];
+    front_.advance(plane.z, kModelTolerance);
+    queue_->push(front_.state(), plane, next_plane_++);
   }
-
-  LayerReport& report = layer.report;
-  report.active_patches = active_.patches().size();
-  report.patches_added = active_.added();
-  report.patches_removed = active_.removed();
-  report.points_near_plane = marked.points_near_plane;
-  for (const ActivePatch& patch : active_.patches()) report.points_held += patch.points.size();
-  report.grid_cells = static_cast<std::size_t>(marked.grid.columns() * marked.grid.rows());
-  report.components = components.size();
-  report.control_points = count_control_points(layer);
-  return layer;
-}
-
-Box3 model_bounds(const Model& model) {
-  std::vector<BezierPatch> patches;
-  for (const Surface& surface : model.surfaces) {
-    for (BezierPatch& patch : bezier_patches(surface.nurbs)) patches.push_back(std::move(patch));
-  }
-  return surface_bounds(patches, kBoundsTolerance);
+  return queue_->pop();
 }
 
 }  // namespace lamina::engine

@@ -1,47 +1,51 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "engine/layer.h"
 #include "engine/model.h"
-#include "engine/pointcloud/patch_lists.h"
+#include "engine/pointcloud/patch_front.h"
 #include "engine/slice_options.h"
 
 namespace lamina::engine {
+
+class LayerQueue;
 
 /// The model cannot be sliced with these options. The message says what to change.
 struct SliceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Slices a model by the point-cloud method of chapter six, plane by plane. Holds the patches and the point
-/// cloud of the current plane only; a layer belongs to the caller.
+/// Slices a model plane by plane at a cost that follows the length of the contours. The plane rises through
+/// the global list of Bezier patches; what it meets is cut into arcs of exact nodes, linked, united where
+/// contours meet, and made into curves. With several threads up to two layers a thread are made ahead of the
+/// caller, always in order; the layers are the same, byte for byte, for any number of threads. Holds the
+/// patches near the plane and the buffers of the layers in hand.
 class Slicer {
  public:
-  /// Planes must rise. Throws SliceError when an option is out of its range or a plane lies below its
-  /// predecessor.
+  /// Planes must rise. Throws SliceError when an option is out of its range, a plane lies below its
+  /// predecessor, or a surface has too high a degree.
   Slicer(const Model& model, std::vector<SlicePlane> planes, const SliceOptions& options);
+  ~Slicer();
+  Slicer(Slicer&&) noexcept;
+  Slicer& operator=(Slicer&&) noexcept;
 
   /// The next layer, or nothing after the last plane. A plane that misses the model gives a layer without
-  /// contours. Throws SliceError when the grid would exceed `most_cells`.
+  /// contours.
   std::optional<Layer> next();
 
   std::size_t layer_count() const { return planes_.size(); }
-  std::size_t patch_count() const { return global_list_.size(); }
+  std::size_t patch_count() const { return front_.patch_count(); }
 
  private:
-  SliceOptions options_;
   std::vector<SlicePlane> planes_;
-  std::vector<ListedPatch> global_list_;
-  ActiveList active_;
+  PatchFront front_;
+  std::unique_ptr<LayerQueue> queue_;
   std::size_t next_plane_ = 0;
 };
-
-/// Box around the model's surfaces themselves, to a micrometre (patches of `layer_thickness` are not needed
-/// for it).
-Box3 model_bounds(const Model& model);
 
 }  // namespace lamina::engine

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/grid/layer_grid.h"
+#include "engine/model.h"
 
 namespace lamina::engine {
 namespace {

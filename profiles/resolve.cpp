@@ -76,7 +76,6 @@ void share_between_stages(ResolvedProfile& profile) {
   const double thickness = settings.planes.layer_thickness;
   const double first = settings.planes.first_layer_thickness;
   gcode::MarlinOptions& marlin = settings.gcode.marlin;
-  settings.slice.layer_thickness = thickness;
   marlin.layer_height = thickness;
   marlin.first_layer_height = first > 0.0 ? first : thickness;
   marlin.printer_name = profile.printer;

@@ -13,8 +13,7 @@ void extend_by_corners(Box3& box, const ControlNet& net) {
 
 }  // namespace
 
-Box3 surface_bounds(const std::vector<BezierPatch>& patches, double tolerance) {
-  Box3 known;  // spanned by points that lie on the surface
+Box3 surface_bounds(const std::vector<BezierPatch>& patches, double tolerance, Box3 known) {
   for (const BezierPatch& patch : patches) extend_by_corners(known, patch.net);
   const Vector3 margin = Vector3::Constant(tolerance);
   std::vector<BezierPatch> open;

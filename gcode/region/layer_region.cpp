@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/geometry/balanced_chords.h"
 #include "gcode/region/loop_crossings.h"
 #include "gcode/region/polygon_clipping.h"
 
@@ -96,7 +97,7 @@ LayerRegion make_region(const engine::Layer& layer, const RegionOptions& options
     if (contour.touch) {
       ++result.touch_contours;
     } else {
-      loops.push_back(engine::flatten_closed(contour.curve, options.tolerance));
+      loops.push_back(engine::flatten_balanced(contour.curve, options.tolerance));
     }
   }
   result.closed_contours = loops.size();
@@ -105,9 +106,9 @@ LayerRegion make_region(const engine::Layer& layer, const RegionOptions& options
   result.crossing_contours = filled.crossings;
   std::vector<Region> parts{std::move(filled.region)};
   for (const engine::PlanarContour& contour : layer.planar) {
-    std::vector<Loop> face{engine::flatten_closed(contour.outer, options.tolerance)};
-    for (const engine::PlanarCurve& inner : contour.inner) {
-      face.push_back(engine::flatten_closed(inner, options.tolerance));
+    std::vector<Loop> face{engine::flatten_balanced(contour.outer, options.tolerance)};
+    for (const engine::PieceCurve& inner : contour.inner) {
+      face.push_back(engine::flatten_balanced(inner, options.tolerance));
     }
     parts.push_back(fill_even_odd(face));
   }

@@ -56,7 +56,6 @@ SlicedVolume slice_to_volume(const std::string& file) {
   const engine::Model model = engine::read_model(tests::corpus_file(file)).model;
   const engine::Box3 bounds = engine::model_bounds(model);
   engine::SliceOptions options;
-  options.layer_thickness = kLambda;
   options.epsilon = kEpsilon;
   engine::Slicer slicer(model,
                         engine::make_slicing_planes(bounds.min().z(), bounds.max().z(),

@@ -37,9 +37,20 @@ inline engine::Loop reversed(engine::Loop loop) {
   return loop;
 }
 
-inline engine::PlanarCurve closed_curve(engine::Loop loop) {
-  loop.push_back(loop.front());
-  return engine::polyline_curve(loop);
+inline engine::PieceCurve closed_curve(const engine::Loop& loop) {
+  engine::PieceCurve curve{{}, true};
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    curve.pieces.emplace_back(engine::LineSegment{loop[k], loop[(k + 1) % loop.size()]});
+  }
+  return curve;
+}
+
+inline engine::PieceCurve open_curve(const engine::Polyline& points) {
+  engine::PieceCurve curve;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    curve.pieces.emplace_back(engine::LineSegment{points[k - 1], points[k]});
+  }
+  return curve;
 }
 
 /// Layer `index` of a stack of equal layers, its lower side at index * thickness.

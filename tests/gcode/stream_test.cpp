@@ -263,7 +263,7 @@ TEST_CASE("what does not fit the printer is refused, model and skirt") {
 TEST_CASE("what bounds no area is counted in the totals") {
   auto layers = stepped_block(3);
   layers[1].points.push_back({{1, 1}});
-  layers[2].open.push_back({engine::polyline_curve({{0, 0}, {1, 1}}), true});
+  layers[2].open.push_back({open_curve({{0, 0}, {1, 1}}), true});
   layers[2].closed.push_back({closed_curve(square({180, 180}, 0.3)), false});
   const PrintTotals totals = print(printer_options(), layers).totals;
   CHECK(totals.touch_points == 1);

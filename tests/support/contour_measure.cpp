@@ -38,7 +38,7 @@ double parity_area(const std::vector<Loop>& loops) {
 std::vector<Loop> closed_loops(const engine::Layer& layer, double tolerance) {
   std::vector<Loop> loops;
   for (const engine::ClosedContour& contour : layer.closed) {
-    loops.push_back(engine::flatten_closed(contour.curve, tolerance));
+    loops.push_back(engine::flatten(contour.curve, tolerance));
   }
   return loops;
 }

@@ -87,7 +87,7 @@ TEST_CASE("the points of the CSV lie on the sphere, a step apart, on closed cont
     for (std::size_t i = 0; i < points.size(); ++i) {
       CHECK(points[i].kind == "closed");
       const double radius = std::sqrt(100.0 - (points[i].z - 10.0) * (points[i].z - 10.0));
-      CHECK(std::hypot(points[i].x, points[i].y) == Approx(radius).margin(0.1));
+      CHECK(std::hypot(points[i].x, points[i].y) == Approx(radius).margin(0.0025));
       if (i == 0) continue;
       CHECK(std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y) <= 0.5001);
     }

@@ -14,9 +14,9 @@
 #include <fmt/format.h>
 
 #include "engine/import/read_model.h"
-#include "engine/pointcloud/decompose.h"
 #include "engine/slicer.h"
 #include "engine/slicing_planes.h"
+#include "tests/reference/pointcloud/decompose.h"
 #include "tools/bench/dissertation_models.h"
 #include "tools/bench/surface_distance.h"
 
@@ -24,6 +24,7 @@ namespace {
 
 using namespace lamina;
 
+constexpr int kBandConstant = 3;
 constexpr double kSamplesPerLength = 0.001;
 
 struct CellResult {
@@ -36,21 +37,20 @@ struct CellResult {
   double average() const { return points == 0 ? 0.0 : distance_sum / static_cast<double>(points); }
 };
 
-std::vector<const engine::PlanarCurve*> curves_of(const engine::Layer& layer) {
-  std::vector<const engine::PlanarCurve*> curves;
+std::vector<const engine::PieceCurve*> curves_of(const engine::Layer& layer) {
+  std::vector<const engine::PieceCurve*> curves;
   for (const engine::ClosedContour& contour : layer.closed) curves.push_back(&contour.curve);
   for (const engine::OpenContour& contour : layer.open) curves.push_back(&contour.curve);
   for (const engine::PlanarContour& contour : layer.planar) {
     curves.push_back(&contour.outer);
-    for (const engine::PlanarCurve& inner : contour.inner) curves.push_back(&inner);
+    for (const engine::PieceCurve& inner : contour.inner) curves.push_back(&inner);
   }
   return curves;
 }
 
 void measure(const engine::Layer& layer, const tools::SurfaceDistance& surfaces, CellResult& result) {
-  for (const engine::PlanarCurve* curve : curves_of(layer)) {
-    // Even steps need a length first; the control polygon is one that is never too short.
-    const double step = kSamplesPerLength * engine::length(curve->control_points);
+  for (const engine::PieceCurve* curve : curves_of(layer)) {
+    const double step = kSamplesPerLength * engine::length(*curve);
     for (const engine::Vector2& point : engine::sample_evenly(*curve, step)) {
       const double distance = surfaces.distance({point.x(), point.y(), layer.plane.z});
       result.distance_sum += distance;
@@ -64,11 +64,10 @@ CellResult run_cell(const engine::Model& model, double lambda, double epsilon) {
   using Clock = std::chrono::steady_clock;
   const engine::Box3 bounds = engine::model_bounds(model);
   engine::SliceOptions options;
-  options.layer_thickness = lambda;
   options.epsilon = epsilon;
   const auto planes = engine::make_slicing_planes(bounds.min().z(), bounds.max().z(),
                                                   {lambda, 0.0, engine::SlicePosition::kBottom});
-  tools::SurfaceDistance surfaces(engine::decompose(model, {lambda, options.band_constant}));
+  tools::SurfaceDistance surfaces(reference::decompose(model, {lambda, kBandConstant}));
   CellResult result;
   auto started = Clock::now();
   engine::Slicer slicer(model, planes, options);

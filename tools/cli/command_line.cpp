@@ -218,6 +218,20 @@ void OptionSet::number(const std::string& names, std::optional<double>& target,
   app_.add_option_function<std::string>(names, store, meaning)->type_name(placeholder);
 }
 
+void OptionSet::count(const std::string& names, int& target, const std::string& placeholder,
+                      const std::string& meaning) {
+  const auto store = [&target, names](const std::string& text) {
+    const double value = parse_number(long_name(names), text);
+    constexpr double kMost = 1e6;
+    if (!(value >= 0.0 && value <= kMost) || value != std::floor(value)) {
+      throw Failure(ExitCode::kUsage,
+                    long_name(names) + " " + text + ": a whole number of 0 or more is needed");
+    }
+    target = static_cast<int>(value);
+  };
+  app_.add_option_function<std::string>(names, store, meaning)->type_name(placeholder);
+}
+
 void OptionSet::numbers(const std::string& names, std::vector<double>& target, const std::string& placeholder,
                         const std::string& meaning) {
   const auto store = [&target, names](const std::string& text) {

@@ -40,6 +40,10 @@ class OptionSet {
   void number(const std::string& names, std::optional<double>& target, const std::string& placeholder,
               const std::string& meaning);
 
+  /// A whole number of 0 or more.
+  void count(const std::string& names, int& target, const std::string& placeholder,
+             const std::string& meaning);
+
   /// Numbers separated by commas, at least one.
   void numbers(const std::string& names, std::vector<double>& target, const std::string& placeholder,
                const std::string& meaning);

@@ -174,8 +174,7 @@ ExitCode run(const ContoursArguments& arguments) {
   SlicingFlaws flaws;
   while (const std::optional<engine::Layer> layer = slicer.next()) {
     output.add(*layer);
-    flaws.unfitted_curves += layer->report.unfitted_curves;
-    flaws.dropped_spurs += layer->report.dropped_spurs;
+    flaws.add(*layer);
     bar.update(static_cast<double>(layer->index + 1) / static_cast<double>(planes.size()),
                fmt::format("layer {}/{}", layer->index + 1, planes.size()));
   }

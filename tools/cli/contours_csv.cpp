@@ -11,18 +11,25 @@ constexpr int kDecimals = 6;
 
 }  // namespace
 
+/// Points along the curve; a closed one ends with the point that it began with.
+engine::Polyline ContoursCsv::points_of(const engine::PieceCurve& curve) const {
+  engine::Polyline points = engine::sample_evenly(curve, step_);
+  if (curve.closed && !points.empty()) points.push_back(points.front());
+  return points;
+}
+
 std::string ContoursCsv::rows(const engine::Layer& layer) {
   std::string text;
   for (const engine::ClosedContour& contour : layer.closed) {
-    append(engine::sample_evenly(contour.curve, step_), layer, "closed", text);
+    append(points_of(contour.curve), layer, "closed", text);
   }
   for (const engine::OpenContour& contour : layer.open) {
-    append(engine::sample_evenly(contour.curve, step_), layer, "open", text);
+    append(points_of(contour.curve), layer, "open", text);
   }
   for (const engine::PlanarContour& contour : layer.planar) {
-    append(engine::sample_evenly(contour.outer, step_), layer, "planar-outer", text);
-    for (const engine::PlanarCurve& inner : contour.inner) {
-      append(engine::sample_evenly(inner, step_), layer, "planar-inner", text);
+    append(points_of(contour.outer), layer, "planar-outer", text);
+    for (const engine::PieceCurve& inner : contour.inner) {
+      append(points_of(inner), layer, "planar-inner", text);
     }
   }
   for (const engine::TouchPoint& point : layer.points) append({point.position}, layer, "point", text);

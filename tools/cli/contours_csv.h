@@ -20,6 +20,7 @@ class ContoursCsv {
   std::string rows(const engine::Layer& layer);
 
  private:
+  engine::Polyline points_of(const engine::PieceCurve& curve) const;
   void append(const engine::Polyline& points, const engine::Layer& layer, const char* kind,
               std::string& text);
 

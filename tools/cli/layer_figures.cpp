@@ -12,9 +12,7 @@ LayerFigures measure(const engine::Layer& layer, double tolerance) {
   gcode::RegionOptions region;
   region.tolerance = tolerance;
   figures.area = engine::area(gcode::make_region(layer, region).region);
-  const auto add_length = [&](const engine::PlanarCurve& curve) {
-    figures.length += engine::length(engine::flatten(curve, tolerance));
-  };
+  const auto add_length = [&](const engine::PieceCurve& curve) { figures.length += engine::length(curve); };
   for (const engine::ClosedContour& contour : layer.closed) {
     add_length(contour.curve);
     ++figures.closed;
@@ -28,7 +26,7 @@ LayerFigures measure(const engine::Layer& layer, double tolerance) {
   for (const engine::PlanarContour& contour : layer.planar) {
     add_length(contour.outer);
     ++figures.planar_outer;
-    for (const engine::PlanarCurve& inner : contour.inner) add_length(inner);
+    for (const engine::PieceCurve& inner : contour.inner) add_length(inner);
     figures.planar_inner += contour.inner.size();
   }
   figures.points = layer.points.size();

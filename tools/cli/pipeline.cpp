@@ -18,6 +18,22 @@ void append_counted(std::vector<std::string>& warnings, std::size_t count, const
 
 }  // namespace
 
+void SlicingFlaws::add(const engine::Layer& layer) {
+  const auto widest_of = [&](const std::vector<engine::BridgedGap>& gaps, engine::BridgedGap& widest,
+                             double& z) {
+    for (const engine::BridgedGap& gap : gaps) {
+      if (gap.width() <= widest.width()) continue;
+      widest = gap;
+      z = layer.plane.z;
+    }
+    return gaps.size();
+  };
+  bridged_gaps += widest_of(layer.report.bridged_gaps, widest_bridge, widest_bridge_z);
+  open_gaps += widest_of(layer.report.open_gaps, widest_gap, widest_gap_z);
+  dropped_length += layer.report.dropped_length;
+  empty_layers += layer.closed.empty() && layer.planar.empty() ? 1 : 0;
+}
+
 ModelGcode::ModelGcode(const PlacedModel& placed, const profiles::Settings& settings)
     : slicer_(placed.model, slicing_planes(placed.bounds, settings.planes), settings.slice),
       stream_(settings.gcode, {placed.bounds, slicer_.layer_count()}) {}
@@ -30,9 +46,7 @@ std::optional<std::vector<std::string>> ModelGcode::next() {
     case Step::kLayers:
       if (const std::optional<engine::Layer> layer = slicer_.next()) {
         ++layers_sliced_;
-        flaws_.unfitted_curves += layer->report.unfitted_curves;
-        flaws_.dropped_spurs += layer->report.dropped_spurs;
-        flaws_.empty_layers += layer->closed.empty() && layer->planar.empty() ? 1 : 0;
+        flaws_.add(*layer);
         return stream_.push(*layer);
       }
       step_ = Step::kDone;
@@ -55,9 +69,17 @@ std::vector<engine::SlicePlane> slicing_planes(const engine::Box3& bounds,
 std::vector<std::string> slicing_warnings(const SlicingFlaws& flaws) {
   std::vector<std::string> warnings;
   append_counted(warnings, flaws.empty_layers, "layers are empty: the model has no area there");
-  append_counted(warnings, flaws.unfitted_curves,
-                 "contours are polylines: no smooth curve came within the tolerance");
-  append_counted(warnings, flaws.dropped_spurs, "boundary cells were left aside as dead ends");
+  const auto append_gaps = [&](std::size_t count, const char* what, const engine::BridgedGap& widest,
+                               double z) {
+    if (count == 0) return;
+    const engine::Vector2 middle = 0.5 * (widest.from + widest.to);
+    warnings.push_back(fmt::format("{} {}; the widest, {:.3f} mm, at x = {:.3f}, y = {:.3f}, z = {:.3f} mm",
+                                   count, what, widest.width(), middle.x(), middle.y(), z));
+  };
+  append_gaps(flaws.bridged_gaps, "gaps in the model were bridged", flaws.widest_bridge,
+              flaws.widest_bridge_z);
+  append_gaps(flaws.open_gaps, "gaps are wider than slicing.longest_bridge and stay open", flaws.widest_gap,
+              flaws.widest_gap_z);
   return warnings;
 }
 

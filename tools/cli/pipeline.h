@@ -14,9 +14,16 @@ namespace lamina::tools {
 
 /// What slicing could not do perfectly, summed over the layers.
 struct SlicingFlaws {
-  std::size_t unfitted_curves = 0;
-  std::size_t dropped_spurs = 0;
+  std::size_t bridged_gaps = 0;
+  engine::BridgedGap widest_bridge;
+  double widest_bridge_z = 0.0;
+  std::size_t open_gaps = 0;
+  engine::BridgedGap widest_gap;
+  double widest_gap_z = 0.0;
+  double dropped_length = 0.0;   ///< of pieces inside the solid, or beyond it where surfaces overlap, mm
   std::size_t empty_layers = 0;  ///< Planes inside the model that meet nothing.
+
+  void add(const engine::Layer& layer);
 };
 
 /// The way from a placed model to G-code, pulled layer by layer: planes -> contours -> toolpaths -> lines.

@@ -7,11 +7,11 @@ namespace lamina::tools {
 void SlicingArguments::declare(OptionSet& options) {
   options.text("--layer-height", layer_height, "MM", "Layer thickness (layer.height)");
   options.text("--tolerance", tolerance, "MM", "Accuracy inside a layer (slicing.tolerance)");
-  options.text("--degree", degree, "N", "Degree of the contours' curves, 1 to 9 (slicing.degree)");
-  options.text("--band", band, "N", "Layers that a patch spans on average (slicing.band_constant)");
-  options.text("--oversampling", oversampling, "FACTOR", "Samples per needed sample (slicing.oversampling)");
+  options.text("--degree", degree, "N", "Greatest degree of the contours' curves, 2 to 5 (slicing.degree)");
+  options.text("--bridge", bridge, "MM", "Gaps up to this are closed (slicing.longest_bridge)");
   options.text("--slice-at", slice_at, "bottom|middle|top",
                "Where a plane cuts its layer (slicing.position)");
+  options.count("--threads", threads, "N", "Threads that slice [0: one a core]; the result is the same");
 }
 
 std::vector<profiles::Assignment> SlicingArguments::assignments() const {
@@ -24,8 +24,7 @@ std::vector<profiles::Assignment> SlicingArguments::assignments() const {
   for (const Option& option :
        {Option{"--layer-height", "layer.height", layer_height},
         Option{"--tolerance", "slicing.tolerance", tolerance}, Option{"--degree", "slicing.degree", degree},
-        Option{"--band", "slicing.band_constant", band},
-        Option{"--oversampling", "slicing.oversampling", oversampling},
+        Option{"--bridge", "slicing.longest_bridge", bridge},
         Option{"--slice-at", "slicing.position", slice_at}}) {
     if (!option.value) continue;
     result.push_back({option.key, *option.value, std::string(option.name) + " " + *option.value});
@@ -52,7 +51,9 @@ profiles::ResolvedProfile resolve(const ProfileArguments& profile, const Slicing
   choice.assignments = slicing.assignments();
   for (const std::string& setting : profile.settings)
     choice.assignments.push_back(profiles::parse_assignment(setting));
-  return profiles::resolve(profile_store(), choice);
+  profiles::ResolvedProfile resolved = profiles::resolve(profile_store(), choice);
+  resolved.settings.slice.threads = slicing.threads;
+  return resolved;
 }
 
 }  // namespace lamina::tools

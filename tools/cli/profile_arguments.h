@@ -14,9 +14,9 @@ struct SlicingArguments {
   std::optional<std::string> layer_height;
   std::optional<std::string> tolerance;
   std::optional<std::string> degree;
-  std::optional<std::string> band;
-  std::optional<std::string> oversampling;
+  std::optional<std::string> bridge;
   std::optional<std::string> slice_at;
+  int threads = 0;  ///< that slice; 0: one a core. The result is the same for any number.
 
   void declare(OptionSet& options);
   std::vector<profiles::Assignment> assignments() const;

@@ -24,7 +24,7 @@ std::string layer_svg(const engine::Layer& layer, const engine::Box2& frame) {
 
   std::vector<engine::Loop> solid;
   for (const engine::ClosedContour& contour : layer.closed) {
-    if (!contour.touch) solid.push_back(engine::flatten_closed(contour.curve, tolerance));
+    if (!contour.touch) solid.push_back(engine::flatten(contour.curve, tolerance));
   }
   picture.begin_group("class=\"solid\" fill=\"#dde6ee\" stroke=\"none\"");
   picture.loops(solid);
@@ -32,16 +32,15 @@ std::string layer_svg(const engine::Layer& layer, const engine::Box2& frame) {
 
   picture.begin_group("class=\"planar\" fill=\"#c8a27a\" " + stroke_of("#7a4a1e", false));
   for (const engine::PlanarContour& contour : layer.planar) {
-    std::vector<engine::Loop> loops{engine::flatten_closed(contour.outer, tolerance)};
-    for (const engine::PlanarCurve& inner : contour.inner)
-      loops.push_back(engine::flatten_closed(inner, tolerance));
+    std::vector<engine::Loop> loops{engine::flatten(contour.outer, tolerance)};
+    for (const engine::PieceCurve& inner : contour.inner) loops.push_back(engine::flatten(inner, tolerance));
     picture.loops(loops);
   }
   picture.end_group();
 
   for (const engine::ClosedContour& contour : layer.closed) {
     picture.begin_group("class=\"closed\" " + stroke_of("#111", contour.touch));
-    picture.line(engine::flatten_closed(contour.curve, tolerance), true);
+    picture.line(engine::flatten(contour.curve, tolerance), true);
     picture.end_group();
   }
   for (const engine::OpenContour& contour : layer.open) {

@@ -1,0 +1,231 @@
+#include "engine/contour/bridge_gaps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "engine/contour/link_arcs.h"
+#include "engine/grid/point_index.h"
+
+namespace lamina::engine {
+namespace {
+
+constexpr std::uint32_t kNone = PointIndex::kNone;
+
+/// End 2c is the front of chain c, end 2c + 1 its back.
+const ContourNode& end_node(const std::vector<NodeChain>& chains, std::uint32_t end) {
+  const NodeChain& chain = chains[end / 2];
+  return end % 2 == 0 ? chain.nodes.front() : chain.nodes.back();
+}
+
+double chain_length(const NodeChain& chain) {
+  double length = 0.0;
+  for (std::size_t k = 1; k < chain.nodes.size(); ++k) {
+    length += (chain.nodes[k].position - chain.nodes[k - 1].position).norm();
+  }
+  return length;
+}
+
+void mark_joint(ContourNode& node, bool exact) {
+  node.corner = true;
+  node.exact = node.exact && exact;
+}
+
+/// Appends `tail` to `chain`, whose ends lie `gap` apart.
+void join(NodeChain& chain, const NodeChain& tail, double joined) {
+  ContourNode& last = chain.nodes.back();
+  const ContourNode& next = tail.nodes.front();
+  const double gap = (next.position - last.position).norm();
+  std::size_t first = 0;
+  if (gap <= joined) {
+    last.tangent_out = next.tangent_out;
+    last.corner = is_corner(last.tangent_in, last.tangent_out);
+    first = 1;
+  } else {
+    mark_joint(last, false);
+  }
+  chain.nodes.insert(chain.nodes.end(), tail.nodes.begin() + static_cast<std::ptrdiff_t>(first),
+                     tail.nodes.end());
+  if (first == 0) mark_joint(chain.nodes[chain.nodes.size() - tail.nodes.size()], false);
+}
+
+void close(NodeChain& chain, double joined) {
+  ContourNode& last = chain.nodes.back();
+  ContourNode& first = chain.nodes.front();
+  chain.closed = true;
+  if ((first.position - last.position).norm() <= joined) {
+    first.tangent_in = last.tangent_in;
+    first.corner = is_corner(first.tangent_in, first.tangent_out);
+    chain.nodes.pop_back();
+  } else {
+    mark_joint(last, false);
+    mark_joint(first, false);
+  }
+}
+
+struct Pair {
+  double distance;
+  std::uint32_t a;
+  std::uint32_t b;
+};
+
+/// Pairs of free ends, the nearest first, each end once.
+std::vector<std::uint32_t> nearest_partners(const std::vector<NodeChain>& chains, double reach) {
+  std::vector<std::uint32_t> partner(2 * chains.size(), kNone);
+  PointIndex index(reach);
+  std::vector<std::uint32_t> ends;
+  for (std::uint32_t end = 0; end < 2 * chains.size(); ++end) {
+    if (chains[end / 2].closed || !end_node(chains, end).exact) continue;  // led to another chain already
+    index.insert(end_node(chains, end).position);
+    ends.push_back(end);
+  }
+  std::vector<Pair> pairs;
+  for (std::uint32_t k = 0; k < ends.size(); ++k) {
+    index.for_each_near(index.point(k), [&](std::uint32_t other) {
+      if (other <= k) return;
+      const double distance = (index.point(other) - index.point(k)).norm();
+      if (distance > reach) return;
+      // A short piece is not bent back into itself.
+      if (ends[k] / 2 == ends[other] / 2 && chain_length(chains[ends[k] / 2]) < 3.0 * distance) return;
+      pairs.push_back({distance, ends[k], ends[other]});
+    });
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+    return std::tie(x.distance, x.a, x.b) < std::tie(y.distance, y.a, y.b);
+  });
+  for (const Pair& pair : pairs) {
+    if (partner[pair.a] != kNone || partner[pair.b] != kNone) continue;
+    partner[pair.a] = pair.b;
+    partner[pair.b] = pair.a;
+  }
+  return partner;
+}
+
+std::vector<NodeChain> joined_chains(std::vector<NodeChain> chains, const std::vector<std::uint32_t>& partner,
+                                     double joined) {
+  std::vector<NodeChain> result;
+  std::vector<bool> used(chains.size(), false);
+  const auto walk = [&](std::uint32_t start) {
+    NodeChain whole;
+    std::uint32_t end = start;
+    while (end != kNone && !used[end / 2]) {
+      NodeChain& piece = chains[end / 2];
+      used[end / 2] = true;
+      if (end % 2 != 0) reverse(piece);
+      if (whole.nodes.empty()) {
+        whole = std::move(piece);
+      } else {
+        join(whole, piece, joined);
+      }
+      end = partner[end ^ 1U];
+    }
+    if (end != kNone) close(whole, joined);
+    result.push_back(std::move(whole));
+  };
+  for (std::uint32_t c = 0; c < chains.size(); ++c) {
+    if (!chains[c].closed) continue;
+    used[c] = true;
+    result.push_back(std::move(chains[c]));
+  }
+  for (std::uint32_t end = 0; end < partner.size(); ++end) {
+    if (!used[end / 2] && partner[end] == kNone) walk(end);
+  }
+  for (std::uint32_t c = 0; c < used.size(); ++c) {
+    if (!used[c]) walk(2 * c);
+  }
+  return result;
+}
+
+std::size_t open_count(const std::vector<NodeChain>& chains) {
+  return static_cast<std::size_t>(
+      std::count_if(chains.begin(), chains.end(), [](const NodeChain& chain) { return !chain.closed; }));
+}
+
+/// Leads free ends to the nearest point of a chain's middle within reach.
+void lead_to_chains(std::vector<NodeChain>& chains, double reach, LayerReport& report) {
+  const std::vector<NodeChain> before = chains;
+  for (std::uint32_t end = 0; end < 2 * chains.size(); ++end) {
+    if (before[end / 2].closed) continue;
+    const Vector2 place = end_node(before, end).position;
+    double best = reach;
+    Vector2 target = place;
+    for (std::uint32_t c = 0; c < before.size(); ++c) {
+      if (c == end / 2) continue;
+      const NodeChain& chain = before[c];
+      const std::size_t count = chain.nodes.size() - (chain.closed ? 0 : 1);
+      for (std::size_t s = 0; s < count; ++s) {
+        const Vector2& a = chain.nodes[s].position;
+        const Vector2& b = chain.nodes[(s + 1) % chain.nodes.size()].position;
+        const Vector2 along = b - a;
+        const double t = std::clamp((place - a).dot(along) / std::max(along.squaredNorm(), 1e-300), 0.0, 1.0);
+        const Vector2 nearest = a + t * along;
+        const double distance = (nearest - place).norm();
+        if (distance < best) {
+          best = distance;
+          target = nearest;
+        }
+      }
+    }
+    if (best >= reach || best == 0.0) continue;
+    ContourNode node;
+    node.position = target;
+    mark_joint(node, false);
+    NodeChain& chain = chains[end / 2];
+    if (end % 2 == 0) {
+      mark_joint(chain.nodes.front(), false);
+      chain.nodes.insert(chain.nodes.begin(), node);
+    } else {
+      mark_joint(chain.nodes.back(), false);
+      chain.nodes.push_back(node);
+    }
+    report.bridged_gaps.push_back({place, target});
+  }
+}
+
+void report_bridges(const std::vector<NodeChain>& chains, const std::vector<std::uint32_t>& partner,
+                    double least, LayerReport& report) {
+  for (std::uint32_t end = 0; end < partner.size(); ++end) {
+    if (partner[end] == kNone || partner[end] < end) continue;
+    const BridgedGap gap{end_node(chains, end).position, end_node(chains, partner[end]).position};
+    if (gap.width() > least) report.bridged_gaps.push_back(gap);
+  }
+}
+
+void report_open(const std::vector<NodeChain>& chains, LayerReport& report) {
+  for (std::uint32_t end = 0; end < 2 * chains.size(); ++end) {
+    if (chains[end / 2].closed || !end_node(chains, end).exact) continue;
+    const Vector2& place = end_node(chains, end).position;
+    BridgedGap gap{place, place};
+    double best = std::numeric_limits<double>::infinity();
+    for (std::uint32_t other = 0; other < 2 * chains.size(); ++other) {
+      if (other == end || chains[other / 2].closed) continue;
+      const double distance = (end_node(chains, other).position - place).norm();
+      if (distance < best) {
+        best = distance;
+        gap.to = end_node(chains, other).position;
+      }
+    }
+    report.open_gaps.push_back(gap);
+  }
+}
+
+}  // namespace
+
+std::vector<NodeChain> bridge_gaps(std::vector<NodeChain> chains, const BridgeOptions& options,
+                                   LayerReport& report) {
+  const auto bridge = [&](double reach) {
+    const std::vector<std::uint32_t> partner = nearest_partners(chains, reach);
+    report_bridges(chains, partner, options.joined, report);
+    chains = joined_chains(std::move(chains), partner, options.joined);
+  };
+  if (open_count(chains) == 0) return chains;
+  bridge(options.epsilon);
+  if (open_count(chains) == 0) return chains;
+  lead_to_chains(chains, options.epsilon, report);
+  bridge(options.longest_bridge);
+  if (open_count(chains) != 0) report_open(chains, report);
+  return chains;
+}
+
+}  // namespace lamina::engine

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/contour/contour_node.h"
+#include "engine/layer_report.h"
+
+namespace lamina::engine {
+
+struct BridgeOptions {
+  double epsilon = 0.05;   ///< gaps up to this are no gaps; ends this near to another chain are led to it, mm
+  double joined = 0.0005;  ///< ends this near become one node, mm
+  double longest_bridge = 0.5;  ///< wider gaps stay open, mm
+};
+
+/// Closes open chains: free ends are joined straight across, the narrowest gap first, up to epsilon; then
+/// ends that stop short of the middle of another chain are led to it; then wider gaps are bridged, up to the
+/// limit. What was bridged wider than epsilon, and what stayed open, is reported with its place.
+std::vector<NodeChain> bridge_gaps(std::vector<NodeChain> chains, const BridgeOptions& options,
+                                   LayerReport& report);
+
+}  // namespace lamina::engine

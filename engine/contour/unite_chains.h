@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/contour/contour_node.h"
+
+namespace lamina::engine {
+
+/// What chains that meet bound together.
+struct UnitedChains {
+  std::vector<NodeChain>
+      outlines;                 ///< closed, solid on the left; they meet each other at single points at most
+  std::vector<NodeChain> open;  ///< pieces that bound nothing and lie outside the solid
+  std::size_t dropped_pieces = 0;  ///< pieces inside the solid, and stubs
+  double dropped_length = 0.0;     ///< mm
+};
+
+enum class Filling {
+  kJudged,  ///< by where the chains run, see `chain_orientations`
+  kAll,     ///< every chain is closed and filled inside
+};
+
+/// The outline of the union of what the chains bound. Where two chains cross, the outline has a corner at the
+/// crossing of their curves, found by Newton steps on cubics through the nodes and tangents. Dead ends
+/// shorter than `shortest_open` (mm) or inside the solid are dropped and counted.
+UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_open,
+                          Filling filling = Filling::kJudged);
+
+}  // namespace lamina::engine

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+
+#include "engine/contour/layer_chains.h"
+#include "engine/grid/meetings.h"
+#include "engine/layer.h"
+#include "engine/pointcloud/patch_front.h"
+#include "engine/pointcloud/patch_section.h"
+#include "engine/slice_options.h"
+
+namespace lamina::engine {
+
+/// Makes layers of the patches that a plane meets; the result depends on nothing else. Keeps the buffers of
+/// one layer for the next: one maker a thread.
+class LayerMaker {
+ public:
+  explicit LayerMaker(const SliceOptions& options);
+
+  /// What the plane at height z and the patches have in common, as chains of exact nodes.
+  LayerChains chains(const FrontState& front, double z, LayerReport& report);
+
+  Layer make(const FrontState& front, const SlicePlane& plane, std::size_t index);
+
+ private:
+  double now() const { return options_.clock == nullptr ? 0.0 : options_.clock(); }
+
+  SliceOptions options_;
+  PatchSection patch_section_;
+  MeetingFinder meetings_;
+  Section section_;
+};
+
+}  // namespace lamina::engine

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/geometry/vector.h"
+#include "engine/model.h"
+#include "engine/pointcloud/bezier_spans.h"
+
+namespace lamina::engine {
+
+/// The control net of a Bezier patch that the current plane may meet; homogeneous points, v fastest.
+struct FrontPatch {
+  int degree_u = 1;
+  int degree_v = 1;
+  std::uint32_t surface = 0;  ///< of the model
+  double z_min = 0.0;         ///< of the net, mm
+  double z_max = 0.0;
+  std::vector<Vector4> points;
+};
+
+/// The patches that a plane may meet, in the order in which the plane reached them.
+struct FrontState {
+  std::vector<std::shared_ptr<const FrontPatch>> active;
+  std::size_t added = 0;    ///< by the last advance
+  std::size_t removed = 0;  ///< by the last advance
+};
+
+/// The model's Bezier patches, one to each pair of knot spans, by ascending z minimum (the global list), and
+/// those that a rising plane may meet (the active list; dissertation p. 124 to 128). A net is cut out of its
+/// surface when the plane reaches it and freed when the plane has passed, so memory follows the section, not
+/// the model.
+class PatchFront {
+ public:
+  explicit PatchFront(const Model& model);
+
+  /// Moves the plane up to z: patches whose z interval lies within `reach` of it become active. z must not
+  /// decrease.
+  void advance(double z, double reach);
+
+  const FrontState& state() const { return state_; }
+  std::size_t patch_count() const { return spans_.size(); }
+
+ private:
+  struct Source {
+    BezierSpans u;
+    BezierSpans v;
+    ControlNet net;
+  };
+  struct Span {
+    double z_min;
+    double z_max;
+    std::uint32_t surface;
+    std::uint32_t u;
+    std::uint32_t v;
+  };
+
+  void cut(const Span& span, std::vector<Vector4>& points);
+
+  std::vector<Source> sources_;
+  std::vector<Span> spans_;
+  FrontState state_;
+  std::vector<Vector4> half_cut_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace lamina::engine

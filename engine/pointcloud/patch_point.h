@@ -1,0 +1,55 @@
+#pragma once
+
+#include "engine/geometry/vector.h"
+#include "engine/pointcloud/patch_front.h"
+#include "engine/pointcloud/section_arc.h"
+
+namespace lamina::engine {
+
+/// Highest degree that is sliced; IGES and STEP files stay far below.
+inline constexpr int kHighestPatchDegree = 63;
+
+enum class Direction { kU, kV };
+
+inline Direction other(Direction direction) {
+  return direction == Direction::kU ? Direction::kV : Direction::kU;
+}
+
+/// Values of the degree + 1 Bernstein polynomials at t and their derivatives (The NURBS Book, A1.3 and
+/// equation 1.9).
+struct BernsteinPair {
+  double value[kHighestPatchDegree + 1];
+  double derivative[kHighestPatchDegree + 1];
+
+  BernsteinPair(int degree, double t);
+};
+
+/// Where along one parameter line, the other parameter held, the patch meets the plane. Between `low` and
+/// `high` its height crosses the plane once, upwards when `rising`.
+struct LineCrossing {
+  Direction held = Direction::kU;
+  double at = 0.0;  ///< value of the parameter held
+  double low = 0.0;
+  double high = 1.0;
+  bool rising = true;
+};
+
+struct CrossingPoint {
+  SectionNode node;  ///< its tangent has the solid on the left where the surface normal points out of it
+  double parameter = 0.0;  ///< of the direction not held
+};
+
+/// By Newton steps kept inside the bracket, to the last bits of the parameter: the point is on the surface,
+/// and on the plane to about 1e-15 of the size of the patch.
+CrossingPoint crossing_on_line(const FrontPatch& patch, double z, const LineCrossing& line);
+
+/// Point of the patch, and its derivative along one direction, both seen from above.
+struct EdgePoint {
+  Vector2 position;
+  Vector2 derivative;
+  double normal_z = 0.0;  ///< |z component| of the unit normal; 0 where the patch has none
+};
+
+EdgePoint point_on_line(const FrontPatch& patch, Direction held, double at, double parameter);
+
+}  // namespace lamina::engine

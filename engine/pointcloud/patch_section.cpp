@@ -1,0 +1,422 @@
+#include "engine/pointcloud/patch_section.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "engine/model.h"
+
+namespace lamina::engine {
+namespace {
+
+/// |z component| of the unit normal below which a patch counts as upright.
+constexpr double kUpright = 0.02;
+constexpr int kDeepestCell = 60;
+constexpr int kDeepestBisection = 24;
+
+/// Changes of sign along `count` numbers, a zero counting as positive.
+int sign_changes(const double* values, std::ptrdiff_t stride, int count) {
+  int changes = 0;
+  for (int k = 1; k < count; ++k) {
+    changes += (values[k * stride] < 0.0) != (values[(k - 1) * stride] < 0.0) ? 1 : 0;
+  }
+  return changes;
+}
+
+bool all_zero(const double* values, std::ptrdiff_t stride, int count) {
+  for (int k = 0; k < count; ++k) {
+    if (values[k * stride] != 0.0) return false;
+  }
+  return true;
+}
+
+bool within(const double* values, std::ptrdiff_t stride, int count, double tolerance) {
+  for (int k = 0; k < count; ++k) {
+    if (std::abs(values[k * stride]) > tolerance) return false;
+  }
+  return true;
+}
+
+/// de Casteljau at 1/2 along one line of numbers.
+void halve_line(const double* net, double* low, double* high, std::ptrdiff_t stride, int count) {
+  for (int k = 0; k < count; ++k) low[k * stride] = net[k * stride];
+  for (int level = 0; level < count; ++level) {
+    high[(count - 1 - level) * stride] = low[(count - 1) * stride];
+    for (int k = count - 1; k > level; --k) low[k * stride] = 0.5 * (low[k * stride] + low[(k - 1) * stride]);
+  }
+}
+
+/// Longest polygon along each direction of the net.
+std::pair<double, double> net_size(const FrontPatch& patch) {
+  const int order_v = patch.degree_v + 1;
+  const auto at = [&](int i, int j) {
+    const Vector4& p = patch.points[static_cast<std::size_t>(i * order_v + j)];
+    return Vector3(p.head<3>() / p.w());
+  };
+  double size_u = 0.0;
+  double size_v = 0.0;
+  for (int j = 0; j < order_v; ++j) {
+    double along = 0.0;
+    for (int i = 1; i <= patch.degree_u; ++i) along += (at(i, j) - at(i - 1, j)).norm();
+    size_u = std::max(size_u, along);
+  }
+  for (int i = 0; i <= patch.degree_u; ++i) {
+    double along = 0.0;
+    for (int j = 1; j < order_v; ++j) along += (at(i, j) - at(i, j - 1)).norm();
+    size_v = std::max(size_v, along);
+  }
+  return {size_u, size_v};
+}
+
+/// Monotone along one direction: 1 rising, -1 falling, 0 neither.
+int monotone(const double* net, std::ptrdiff_t step, int count, std::ptrdiff_t stride, int lines) {
+  bool rises = false;
+  bool falls = false;
+  for (int l = 0; l < lines; ++l) {
+    for (int k = 1; k < count; ++k) {
+      const double difference = net[l * stride + k * step] - net[l * stride + (k - 1) * step];
+      rises = rises || difference > 0.0;
+      falls = falls || difference < 0.0;
+    }
+  }
+  return rises == falls ? 0 : (rises ? 1 : -1);
+}
+
+}  // namespace
+
+void PatchSection::cut(const FrontPatch& patch, double z, Section& section) {
+  patch_ = &patch;
+  section_ = &section;
+  z_ = z;
+  const auto size = patch.points.size();
+  // Two children on the stack at each depth.
+  const std::size_t needed = size * 2 * (kDeepestCell + 2);
+  if (nets_.size() < needed) nets_.resize(needed);
+  double* net = nets_.data();
+  for (std::size_t k = 0; k < size; ++k) net[k] = patch.points[k].z() - z * patch.points[k].w();
+  size_u_ = -1.0;  // found when a cell has to be divided
+  // A vertex in the plane is exactly so for every patch around it.
+  const int order_v = patch.degree_v + 1;
+  const auto corner = [&](int i, int j) {
+    const auto index = static_cast<std::size_t>(i * order_v + j);
+    if (std::abs(net[index]) <= kModelTolerance * patch.points[index].w()) net[index] = 0.0;
+  };
+  corner(0, 0);
+  corner(0, patch.degree_v);
+  corner(patch.degree_u, 0);
+  corner(patch.degree_u, patch.degree_v);
+  visit(net, {0.0, 1.0, 0.0, 1.0}, 0);
+}
+
+bool PatchSection::snap_edges(double* net) const {
+  const int order_u = patch_->degree_u + 1;
+  const int order_v = patch_->degree_v + 1;
+  const double tolerance = kModelTolerance;
+  const auto snap = [&](double* first, std::ptrdiff_t stride, int count) {
+    if (!within(first, stride, count, tolerance)) return false;
+    for (int k = 0; k < count; ++k) first[k * stride] = 0.0;
+    return true;
+  };
+  const bool a = snap(net, 1, order_v);
+  const bool b = snap(net + patch_->degree_u * order_v, 1, order_v);
+  const bool c = snap(net, order_v, order_u);
+  const bool d = snap(net + patch_->degree_v, order_v, order_u);
+  return a || b || c || d;
+}
+
+void PatchSection::visit(double* net, const Rectangle& rectangle, int depth) {
+  ++section_->cells;
+  const int order_u = patch_->degree_u + 1;
+  const int order_v = patch_->degree_v + 1;
+  const int size = order_u * order_v;
+  double lowest = net[0];
+  double highest = net[0];
+  for (int k = 1; k < size; ++k) {
+    lowest = std::min(lowest, net[k]);
+    highest = std::max(highest, net[k]);
+  }
+  if (lowest > kModelTolerance || highest < -kModelTolerance) return;
+  if (lowest >= -kModelTolerance && highest <= kModelTolerance) {
+    emit_flat(rectangle);
+    return;
+  }
+  const bool edge_in_plane = snap_edges(net);
+  if (lowest >= -kModelTolerance && (edge_in_plane || lowest >= 0.0)) {
+    emit_one_sided(net, rectangle, true);
+    return;
+  }
+  if (highest <= kModelTolerance && (edge_in_plane || highest <= 0.0)) {
+    emit_one_sided(net, rectangle, false);
+    return;
+  }
+  if (lowest >= 0.0 || highest < 0.0) return;
+
+  const int rise_u = monotone(net, order_v, order_u, 1, order_v);
+  const int rise_v = monotone(net, 1, order_v, order_v, order_u);
+  if (!edge_in_plane && (rise_u != 0 || rise_v != 0)) {
+    // Where both hold, the parameter that the height depends on more is solved for.
+    const auto range = [&](int step_index) {
+      return std::abs(net[step_index] - net[0]) + std::abs(net[size - 1] - net[size - 1 - step_index]);
+    };
+    const bool by_u = rise_v == 0 || (rise_u != 0 && range((order_u - 1) * order_v) >= range(order_v - 1));
+    const Direction solved = by_u ? Direction::kU : Direction::kV;
+    if (emit_monotone(net, rectangle, solved, (by_u ? rise_u : rise_v) > 0, false)) return;
+    if (rise_u != 0 && rise_v != 0 &&
+        emit_monotone(net, rectangle, other(solved), (by_u ? rise_v : rise_u) > 0, false))
+      return;
+  }
+  if (size_u_ < 0.0) std::tie(size_u_, size_v_) = net_size(*patch_);
+  const double along_u = size_u_ * (rectangle.u1 - rectangle.u0);
+  const double along_v = size_v_ * (rectangle.v1 - rectangle.v0);
+  if (depth >= kDeepestCell || std::max(along_u, along_v) <= options_.smallest_cell) {
+    emit_unresolved(net, rectangle);
+    return;
+  }
+  halve(net, rectangle, net + size, depth, along_u >= along_v ? Direction::kU : Direction::kV);
+}
+
+void PatchSection::halve(const double* net, const Rectangle& r, double* free, int depth,
+                         Direction direction) {
+  const int order_u = patch_->degree_u + 1;
+  const int order_v = patch_->degree_v + 1;
+  const int size = order_u * order_v;
+  // The high half lies below the low one on the stack, so that it outlives the visit to it.
+  double* high = free;
+  double* low = free + size;
+  if (direction == Direction::kU) {
+    for (int j = 0; j < order_v; ++j) halve_line(net + j, low + j, high + j, order_v, order_u);
+    const double middle = 0.5 * (r.u0 + r.u1);
+    visit(low, {r.u0, middle, r.v0, r.v1}, depth + 1);
+    visit(high, {middle, r.u1, r.v0, r.v1}, depth + 1);
+  } else {
+    for (int i = 0; i < order_u; ++i) {
+      halve_line(net + i * order_v, low + i * order_v, high + i * order_v, 1, order_v);
+    }
+    const double middle = 0.5 * (r.v0 + r.v1);
+    visit(low, {r.u0, r.u1, r.v0, middle}, depth + 1);
+    visit(high, {r.u0, r.u1, middle, r.v1}, depth + 1);
+  }
+}
+
+bool PatchSection::chord_holds(const Vector2& a, const Vector2& tangent_a, const Vector2& b,
+                               const Vector2& tangent_b) const {
+  const Vector2 chord = b - a;
+  const double length_squared = chord.squaredNorm();
+  const double tolerance = options_.chord_tolerance;
+  if (length_squared <= 1e-2 * tolerance * tolerance) return true;
+  const auto sideways = [&](const Vector2& tangent) {
+    return std::abs(chord.x() * tangent.y() - chord.y() * tangent.x());
+  };
+  if (!(chord.dot(tangent_a) > 0.0) || !(chord.dot(tangent_b) > 0.0)) {
+    return length_squared <= tolerance * tolerance;
+  }
+  // A cubic that leaves its chord of length L at the angles a and b is at most 4/27 L (tan a + tan b) from
+  // it; a circle 1/8 of that product.
+  return 0.15 * (sideways(tangent_a) + sideways(tangent_b)) <= tolerance;
+}
+
+void PatchSection::finish_arc(SectionArc& arc) const {
+  arc.count = static_cast<std::uint32_t>(section_->nodes.size()) - arc.first;
+}
+
+void PatchSection::bisect_arc(const LineCrossing& solved, double from, const CrossingPoint& start, double to,
+                              const CrossingPoint& end, int forced, int depth) {
+  if (depth == kDeepestBisection || (forced <= 0 && chord_holds(start.node.position, start.node.tangent,
+                                                                end.node.position, end.node.tangent))) {
+    return;
+  }
+  LineCrossing line = solved;
+  line.at = 0.5 * (from + to);
+  const CrossingPoint middle = crossing_on_line(*patch_, z_, line);
+  bisect_arc(solved, from, start, line.at, middle, forced - 1, depth + 1);
+  section_->nodes.push_back(middle.node);
+  bisect_arc(solved, line.at, middle, to, end, forced - 1, depth + 1);
+}
+
+bool PatchSection::emit_monotone(const double* net, const Rectangle& r, Direction solved, bool rising,
+                                 bool at_limit) {
+  const int order_u = patch_->degree_u + 1;
+  const int order_v = patch_->degree_v + 1;
+  const bool by_u = solved == Direction::kU;
+  // The edges across the solved direction, as numbers along the running one.
+  const std::ptrdiff_t stride = by_u ? 1 : order_v;
+  const int count = by_u ? order_v : order_u;
+  const double* low_edge = net;
+  const double* high_edge = by_u ? net + patch_->degree_u * order_v : net + patch_->degree_v;
+  if (!at_limit && (sign_changes(low_edge, stride, count) > 1 || sign_changes(high_edge, stride, count) > 1))
+    return false;
+  const double s0 = by_u ? r.u0 : r.v0;
+  const double s1 = by_u ? r.u1 : r.v1;
+  const double t0 = by_u ? r.v0 : r.u0;
+  const double t1 = by_u ? r.v1 : r.u1;
+
+  // Where the running parameter can go: the height must be below the plane at one edge and above at the
+  // other.
+  struct End {
+    double t;
+    enum { kLine, kLowEdge, kHighEdge } where;
+    bool edge_rising;
+  };
+  End first{t0, End::kLine, false};
+  End last{t1, End::kLine, false};
+  const auto restrict_to = [&](const double* edge, bool wants_below, double s, bool is_low) {
+    const bool start_fits = (edge[0] < 0.0) == wants_below;
+    const bool end_fits = (edge[(count - 1) * stride] < 0.0) == wants_below;
+    if (start_fits && end_fits) return true;
+    if (!start_fits && !end_fits) return false;
+    const bool edge_rising = edge[0] < 0.0;
+    const double t = crossing_on_line(*patch_, z_, {solved, s, t0, t1, edge_rising}).parameter;
+    if (start_fits) {
+      if (t <= last.t) last = {t, is_low ? End::kLowEdge : End::kHighEdge, edge_rising};
+    } else {
+      if (t >= first.t) first = {t, is_low ? End::kLowEdge : End::kHighEdge, edge_rising};
+    }
+    return true;
+  };
+  if (!restrict_to(low_edge, rising, s0, true)) return true;
+  if (!restrict_to(high_edge, !rising, s1, false)) return true;
+  if (!(first.t < last.t)) return true;
+
+  const LineCrossing line{other(solved), 0.0, s0, s1, rising};
+  const auto point_at = [&](const End& end) {
+    if (end.where != End::kLine) {
+      return crossing_on_line(*patch_, z_,
+                              {solved, end.where == End::kLowEdge ? s0 : s1, t0, t1, end.edge_rising});
+    }
+    LineCrossing at = line;
+    at.at = end.t;
+    return crossing_on_line(*patch_, z_, at);
+  };
+  CrossingPoint start = point_at(first);
+  CrossingPoint end = point_at(last);
+  // The outward normal lies on the right when v falls where the height rises with u, and u rises where it
+  // rises with v.
+  const bool flipped = by_u == rising;
+  const bool curved = patch_->degree_u > 1 || patch_->degree_v > 1;
+  SectionArc arc{static_cast<std::uint32_t>(section_->nodes.size()), 0, patch_->surface, ArcKind::kCrossing};
+  section_->nodes.push_back(flipped ? end.node : start.node);
+  if (flipped) {
+    bisect_arc(line, last.t, end, first.t, start, curved ? 1 : 0, 0);
+  } else {
+    bisect_arc(line, first.t, start, last.t, end, curved ? 1 : 0, 0);
+  }
+  section_->nodes.push_back(flipped ? start.node : end.node);
+  finish_arc(arc);
+  section_->arcs.push_back(arc);
+  return true;
+}
+
+void PatchSection::emit_unresolved(const double* net, const Rectangle& r) {
+  ++section_->unresolved_cells;
+  const int order_v = patch_->degree_v + 1;
+  const double corner[4] = {net[0], net[patch_->degree_u * order_v],
+                            net[patch_->degree_u * order_v + patch_->degree_v], net[patch_->degree_v]};
+  // Edges in turn around the cell, each from a corner to the next.
+  const LineCrossing edges[4] = {{Direction::kV, r.v0, r.u0, r.u1, true},
+                                 {Direction::kU, r.u1, r.v0, r.v1, true},
+                                 {Direction::kV, r.v1, r.u0, r.u1, false},
+                                 {Direction::kU, r.u0, r.v0, r.v1, false}};
+  SectionNode crossings[4];
+  int found = 0;
+  for (int k = 0; k < 4; ++k) {
+    const bool below = corner[k] < 0.0;
+    if (below == (corner[(k + 1) % 4] < 0.0)) continue;
+    LineCrossing edge = edges[k];
+    edge.rising = edge.rising == below;
+    crossings[found++] = crossing_on_line(*patch_, z_, edge).node;
+  }
+  for (int k = 0; k + 1 < found; k += 2) {
+    SectionNode a = crossings[k];
+    SectionNode b = crossings[k + 1];
+    if ((b.position - a.position).dot(a.tangent + b.tangent) < 0.0) std::swap(a, b);
+    const SectionArc arc{static_cast<std::uint32_t>(section_->nodes.size()), 2, patch_->surface,
+                         ArcKind::kCrossing};
+    section_->nodes.push_back(a);
+    section_->nodes.push_back(b);
+    section_->arcs.push_back(arc);
+  }
+}
+
+void PatchSection::bisect_edge(Direction held, double at, double from, const EdgePoint& start, double to,
+                               const EdgePoint& end, int forced, int depth) {
+  const double sign = to > from ? 1.0 : -1.0;
+  if (depth == kDeepestBisection ||
+      (forced <= 0 && chord_holds(start.position, sign * start.derivative.normalized(), end.position,
+                                  sign * end.derivative.normalized()))) {
+    return;
+  }
+  const double middle = 0.5 * (from + to);
+  const EdgePoint point = point_on_line(*patch_, held, at, middle);
+  bisect_edge(held, at, from, start, middle, point, forced - 1, depth + 1);
+  section_->nodes.push_back({point.position, sign * point.derivative.normalized()});
+  bisect_edge(held, at, middle, point, to, end, forced - 1, depth + 1);
+}
+
+SectionArc PatchSection::edge_arc(Direction held, double at, double from, double to, ArcKind kind) {
+  SectionArc arc{static_cast<std::uint32_t>(section_->nodes.size()), 0, patch_->surface, kind};
+  const EdgePoint start = point_on_line(*patch_, held, at, from);
+  const EdgePoint end = point_on_line(*patch_, held, at, to);
+  const int degree = held == Direction::kU ? patch_->degree_v : patch_->degree_u;
+  arc.upright = std::max(start.normal_z, end.normal_z) < kUpright;
+  const double sign = to > from ? 1.0 : -1.0;
+  section_->nodes.push_back({start.position, sign * start.derivative.normalized()});
+  bisect_edge(held, at, from, start, to, end, degree > 1 ? 1 : 0, 0);
+  section_->nodes.push_back({end.position, sign * end.derivative.normalized()});
+  finish_arc(arc);
+  return arc;
+}
+
+void PatchSection::emit_one_sided(const double* net, const Rectangle& r, bool above) {
+  const int order_u = patch_->degree_u + 1;
+  const int order_v = patch_->degree_v + 1;
+  const double* last_row = net + patch_->degree_u * order_v;
+  const double* last_column = net + patch_->degree_v;
+  const ArcKind kind = above ? ArcKind::kEdgeAbove : ArcKind::kEdgeBelow;
+  const bool upright =
+      point_on_line(*patch_, Direction::kU, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1)).normal_z < kUpright;
+  bool corner_covered[4] = {false, false, false, false};  // (u0,v0), (u1,v0), (u1,v1), (u0,v1)
+  const auto edge = [&](bool in_plane, Direction held, double at, double from, double to, int corner_a,
+                        int corner_b) {
+    if (!in_plane) return;
+    corner_covered[corner_a] = corner_covered[corner_b] = true;
+    const std::size_t before = section_->nodes.size();
+    SectionArc arc = edge_arc(held, at, from, to, kind);
+    arc.upright = arc.upright && upright;
+    double length = 0.0;
+    for (std::size_t k = before + 1; k < section_->nodes.size(); ++k) {
+      length += (section_->nodes[k].position - section_->nodes[k - 1].position).norm();
+    }
+    if (length > kModelTolerance) {
+      section_->arcs.push_back(arc);
+    } else {
+      section_->touches.push_back({section_->nodes[before].position, above});
+      section_->nodes.resize(before);
+    }
+  };
+  edge(all_zero(net, order_v, order_u), Direction::kV, r.v0, r.u0, r.u1, 0, 1);
+  edge(all_zero(last_row, 1, order_v), Direction::kU, r.u1, r.v0, r.v1, 1, 2);
+  edge(all_zero(last_column, order_v, order_u), Direction::kV, r.v1, r.u0, r.u1, 3, 2);
+  edge(all_zero(net, 1, order_v), Direction::kU, r.u0, r.v0, r.v1, 0, 3);
+  const auto corner = [&](int index, double value, double u, double v) {
+    if (value != 0.0 || corner_covered[index]) return;
+    section_->touches.push_back({point_on_line(*patch_, Direction::kU, u, v).position, above});
+  };
+  corner(0, net[0], r.u0, r.v0);
+  corner(1, last_row[0], r.u1, r.v0);
+  corner(2, last_row[patch_->degree_v], r.u1, r.v1);
+  corner(3, last_column[0], r.u0, r.v1);
+}
+
+void PatchSection::emit_flat(const Rectangle& r) {
+  const std::size_t first = section_->flat_rims.size();
+  section_->flat_rims.push_back(edge_arc(Direction::kV, r.v0, r.u0, r.u1, ArcKind::kFlatRim));
+  section_->flat_rims.push_back(edge_arc(Direction::kU, r.u1, r.v0, r.v1, ArcKind::kFlatRim));
+  section_->flat_rims.push_back(edge_arc(Direction::kV, r.v1, r.u1, r.u0, ArcKind::kFlatRim));
+  section_->flat_rims.push_back(edge_arc(Direction::kU, r.u0, r.v1, r.v0, ArcKind::kFlatRim));
+  Box2 box;
+  for (std::size_t k = section_->flat_rims[first].first; k < section_->nodes.size(); ++k)
+    box.extend(section_->nodes[k].position);
+  section_->flats.push_back({static_cast<std::uint32_t>(first), box.sizes().maxCoeff()});
+}
+
+}  // namespace lamina::engine

@@ -1,0 +1,259 @@
+// The sparse engine against the dense one: number, kind and nesting of contours, and areas within what a half
+// cell allows.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+#include "engine/import/read_model.h"
+#include "engine/slicer.h"
+#include "engine/slicing_planes.h"
+#include "tests/engine/slicing/sliced_layers.h"
+#include "tests/reference/as_engine_layer.h"
+#include "tests/reference/reference_slicer.h"
+#include "tests/support/analytic_models.h"
+#include "tests/support/contour_measure.h"
+#include "tests/support/corpus.h"
+
+namespace lamina::tests {
+namespace {
+
+using engine::Layer;
+using engine::Loop;
+using engine::Model;
+using engine::Vector2;
+using engine::Vector3;
+
+constexpr unsigned kSeed = 20;
+
+/// Where the engines may differ, and why.
+struct Comparison {
+  std::size_t layers = 0;
+  std::size_t equal = 0;
+  /// The dense engine sees contours that come nearer than two cells to each other as one, and those smaller
+  /// than two cells as a point or a line.
+  std::size_t below_resolution = 0;
+  /// Contours that overlap or touch: the dense engine keeps the outside of what is connected and loses the
+  /// holes in it.
+  std::size_t met = 0;
+  /// Open contours that are no touch: a closed solid has none. The dense engine makes them from the thick
+  /// lines of strong cells where a surface leans on the plane.
+  std::size_t spurs = 0;
+  /// Loops of the dense engine narrower than three cells that lie along another one: of the same thick lines.
+  std::size_t slivers = 0;
+  std::size_t unexplained = 0;
+};
+
+bool smaller_than(const Loop& loop, double size) {
+  engine::Box2 box;
+  for (const Vector2& point : loop) box.extend(point);
+  return box.sizes().minCoeff() < size;
+}
+
+/// Whether two loops, or one loop and itself across an angle of its outline, come nearer than `distance`.
+bool loops_come_near(const std::vector<Loop>& loops, double distance) {
+  for (const Loop& loop : loops) {
+    if (smaller_than(loop, 2.0 * distance)) return true;
+    for (const Loop& other : loops) {
+      if (&other == &loop) continue;
+      for (const Vector2& point : loop) {
+        if (distance_to_loops(point, {other}) < distance) return true;
+      }
+    }
+    // Two places far apart along the loop but near each other.
+    const double whole = engine::perimeter(loop);
+    std::vector<double> reached{0.0};
+    for (std::size_t k = 1; k < loop.size(); ++k)
+      reached.push_back(reached.back() + (loop[k] - loop[k - 1]).norm());
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      for (std::size_t j = i + 1; j < loop.size(); ++j) {
+        const double along = std::min(reached[j] - reached[i], whole - (reached[j] - reached[i]));
+        const double straight = (loop[i] - loop[j]).norm();
+        if (straight < distance && along > 3.0 * std::max(straight, distance)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::size_t wide_loops(const std::vector<Loop>& loops, double width) {
+  return static_cast<std::size_t>(std::count_if(loops.begin(), loops.end(), [&](const Loop& loop) {
+    return 2.0 * std::abs(engine::signed_area(loop)) >= width * engine::perimeter(loop);
+  }));
+}
+
+enum class Boundary { kClosed, kMayBeOpen };
+
+void compare(const Model& model, Boundary boundary, const std::vector<engine::SlicePlane>& planes,
+             double epsilon, Comparison& result) {
+  engine::SliceOptions options;
+  options.epsilon = epsilon;
+  engine::Slicer slicer(model, planes, options);
+  reference::SliceOptions dense_options;
+  dense_options.layer_thickness = 0.5;
+  dense_options.epsilon = epsilon;
+  reference::ReferenceSlicer dense(model, planes, dense_options);
+  while (const auto fast = slicer.next()) {
+    const auto dense_layer = dense.next();
+    REQUIRE(dense_layer);
+    const Layer slow = reference::as_engine_layer(*dense_layer);
+    ++result.layers;
+    const std::vector<Loop> fast_loops = closed_loops(*fast, 0.05 * epsilon);
+    const std::vector<Loop> slow_loops = closed_loops(slow, 0.05 * epsilon);
+    const Kinds f = kinds_of(*fast, 0.05 * epsilon);
+    const Kinds s = kinds_of(slow, 0.05 * epsilon);
+    if (boundary == Boundary::kClosed) CHECK(f.open == 0);
+    if (f == s) {
+      ++result.equal;
+      // Half a cell along the contour, up to a whole one where the surface leans on the plane.
+      const double allowed = epsilon * perimeter_of(fast_loops) + 4.0 * epsilon * epsilon;
+      CAPTURE(model.name, fast->plane.z);
+      CHECK(std::abs(parity_area(fast_loops) - parity_area(slow_loops)) <= allowed);
+    } else if (fast->report.meetings > 0) {
+      ++result.met;
+    } else if (loops_come_near(fast_loops, 3.0 * epsilon) || fast->report.close_places > 0) {
+      ++result.below_resolution;
+    } else if (boundary == Boundary::kClosed && s.open > 0) {
+      ++result.spurs;
+    } else if (s.open == f.open &&
+               wide_loops(fast_loops, 3.0 * epsilon) == wide_loops(slow_loops, 3.0 * epsilon) &&
+               greatest_difference(slow_loops, fast_loops) < 6.0 * epsilon) {
+      ++result.slivers;
+    } else {
+      ++result.unexplained;
+      WARN(model.name << " at z = " << fast->plane.z << ": sparse " << f.closed << " closed, " << f.touching
+                      << " touching, " << f.open << " open, " << f.planar << " planar, " << f.points
+                      << " points; dense " << s.closed << ", " << s.touching << ", " << s.open << ", "
+                      << s.planar << ", " << s.points << ", areas " << parity_area(fast_loops) << " and "
+                      << parity_area(slow_loops));
+    }
+  }
+}
+
+std::vector<engine::SlicePlane> planes_through(const Model& model, std::size_t count) {
+  const engine::Box3 box = engine::model_bounds(model);
+  std::vector<engine::SlicePlane> planes;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double z =
+        box.min().z() + box.sizes().z() * (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+    planes.push_back({z, z, z});
+  }
+  return planes;
+}
+
+class RandomSolids {
+ public:
+  explicit RandomSolids(unsigned seed) : random_(seed) {}
+
+  Model next(int index) {
+    std::vector<Model> parts;
+    const int count = 1 + index % 3;
+    for (int k = 0; k < count; ++k) parts.push_back(posed(solid(index + k)));
+    Model model = united("random " + std::to_string(index), parts);
+    return model;
+  }
+
+ private:
+  double number(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+
+  Model solid(int kind) {
+    switch (kind % 5) {
+      case 0:
+        return sphere(Vector3::Zero(), number(1.0, 3.0)).model;
+      case 1:
+        return box(Vector3::Zero(), {number(1.0, 4.0), number(1.0, 4.0), number(1.0, 4.0)}).model;
+      case 2:
+        return vase();
+      case 3:
+        return extrusion();
+      default:
+        return standing_torus(Vector3::Zero(), number(2.0, 3.0), number(0.5, 1.0)).model;
+    }
+  }
+
+  /// A cubic B-spline profile from axis to axis, turned once around.
+  Model vase() {
+    Profile profile;
+    profile.degree = 3;
+    profile.knots = {0, 0, 0, 0, 1, 2, 3, 4, 4, 4, 4};
+    for (int k = 0; k < 7; ++k) {
+      const bool end = k == 0 || k == 6;
+      profile.points.emplace_back(end ? 0.0 : number(0.8, 2.5), 0.6 * k, 1.0);
+    }
+    return model_of("vase", {revolved(profile, Vector3::Zero())});
+  }
+
+  /// A blob-shaped cubic outline, extruded, its ends closed by fans that shrink it to a point.
+  Model extrusion() {
+    constexpr int kSides = 8;
+    const double height = number(1.0, 3.0);
+    engine::NurbsSurface wall;
+    wall.degree_u = 3;
+    wall.degree_v = 1;
+    for (int k = 0; k < kSides + 7; ++k) wall.knots_u.push_back(k);
+    wall.knots_v = {0, 0, 1, 2, 3, 3};
+    wall.net.count_u = kSides + 3;
+    wall.net.count_v = 4;
+    std::vector<Vector2> outline;
+    for (int k = 0; k < kSides; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kSides;
+      outline.emplace_back(number(1.0, 2.5) * Vector2(std::cos(angle), std::sin(angle)));
+    }
+    for (int k = 0; k < kSides + 3; ++k) {
+      const Vector2& p = outline[static_cast<std::size_t>(k % kSides)];
+      wall.net.points.emplace_back(0.0, 0.0, 0.0, 1.0);
+      wall.net.points.emplace_back(p.x(), p.y(), 0.0, 1.0);
+      wall.net.points.emplace_back(p.x(), p.y(), height, 1.0);
+      wall.net.points.emplace_back(0.0, 0.0, height, 1.0);
+    }
+    return model_of("extrusion", {wall});
+  }
+
+  Model posed(const Model& model) {
+    const Vector3 axis(number(-1, 1), number(-1, 1), number(-1, 1));
+    const Eigen::Affine3d pose = Eigen::Translation3d(number(-2, 2), number(-2, 2), number(-2, 2)) *
+                                 Eigen::AngleAxisd(number(0, 6.28), axis.normalized());
+    return engine::transformed(model, pose);
+  }
+
+  std::mt19937 random_;
+};
+
+TEST_CASE("random solids and unions: both engines see the same contours", "[slicing][differential]") {
+  INFO("seed " << kSeed);
+  RandomSolids solids(kSeed);
+  Comparison result;
+  for (int k = 0; k < 60; ++k) {
+    const Model model = solids.next(k);
+    compare(model, Boundary::kClosed, planes_through(model, 5), 0.05, result);
+  }
+  CAPTURE(result.layers, result.equal, result.met, result.below_resolution, result.spurs, result.slivers);
+  CHECK(result.unexplained == 0);
+  CHECK(result.equal >= result.layers * 9 / 10);
+}
+
+TEST_CASE("corpus: both engines see the same contours", "[slicing][differential]") {
+  if (!corpus_present()) {
+    WARN("the model corpus is missing: skipped");
+    return;
+  }
+  Comparison result;
+  for (const char* name :
+       {"analytic/box_hole_lying.igs", "analytic/sphere_cavity.igs", "analytic/spheres_overlap.igs",
+        "analytic/torus_standing.igs", "analytic/tube_annulus.igs", "seed/initials_WEO.igs",
+        "seed/trefoil_swept.igs", "freeform/teacup26.igs"}) {
+    const Model model = engine::read_model(corpus_file(name)).model;
+    compare(model, Boundary::kMayBeOpen, planes_through(model, 4), 0.1, result);
+  }
+  CAPTURE(result.layers, result.equal, result.met, result.below_resolution, result.spurs, result.slivers);
+  CHECK(result.unexplained == 0);
+  CHECK(result.equal >= result.layers * 9 / 10);
+}
+
+}  // namespace
+}  // namespace lamina::tests
