@@ -8,11 +8,21 @@ namespace {
 
 constexpr double kBoundsTolerance = 1e-3;
 
+/// Of the vertices that facets use.
+Box3 bounds(const TriangleMesh& mesh) {
+  Box3 box;
+  for (const auto& facet : mesh.facets) {
+    for (const std::uint32_t v : facet) box.extend(mesh.vertices[v].cast<double>());
+  }
+  return box;
+}
+
 }  // namespace
 
 Box3 control_box(const Model& model) {
   Box3 box;
   for (const Surface& surface : model.surfaces) box.extend(control_box(surface.nurbs.net));
+  for (const TriangleMesh& mesh : model.meshes) box.extend(bounds(mesh));
   return box;
 }
 
@@ -28,6 +38,7 @@ Box3 model_bounds(const Model& model) {
     if (known.contains(control_box(surface.nurbs.net))) continue;
     known = surface_bounds(bezier_patches(surface.nurbs), kBoundsTolerance, known);
   }
+  for (const TriangleMesh& mesh : model.meshes) known.extend(bounds(mesh));
   return known;
 }
 
@@ -35,6 +46,11 @@ Model transformed(const Model& model, const Eigen::Affine3d& transform) {
   Model result = model;
   for (Surface& surface : result.surfaces) {
     for (Vector4& point : surface.nurbs.net.points) point = transform.matrix() * point;
+  }
+  for (TriangleMesh& mesh : result.meshes) {
+    for (Eigen::Vector3f& vertex : mesh.vertices) {
+      vertex = (transform * vertex.cast<double>()).cast<float>();
+    }
   }
   return result;
 }

@@ -1,24 +1,43 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "engine/geometry/vector.h"
+#include "engine/nurbs/curve.h"
 #include "engine/nurbs/surface.h"
 
 namespace lamina::engine {
 
-/// A surface of the model and where it came from.
-struct Surface {
-  NurbsSurface nurbs;
-  int entity_type = 0;     ///< IGES entity type number, such as 128
-  int directory_line = 0;  ///< sequence number of its directory entry in the file, such as 255
+/// A closed loop of curves in a surface's parameter plane: control points (w u, w v, 0, w), each curve begins
+/// where the one before ends, to the tolerance that the model was read with.
+struct TrimLoop {
+  std::vector<NurbsCurve> curves;
 };
 
-/// What is sliced: surfaces in mm that together bound a solid. Nothing is promised about topology.
+/// A surface of the model and where it came from. With trim loops only the part of it counts that lies inside
+/// them, by parity: outer loops counter-clockwise, holes clockwise, several outer ones possible.
+struct Surface {
+  NurbsSurface nurbs;
+  std::vector<TrimLoop> trim;  ///< empty: the whole surface
+  int entity_type = 0;         ///< IGES entity type number, such as 128
+  int directory_line = 0;      ///< sequence number of its directory entry in the file, such as 255
+};
+
+/// Triangles as a file gives them, mm: not repaired, corners perhaps not shared, normals perhaps reversed.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<std::array<std::uint32_t, 3>> facets;  ///< indices of vertices
+};
+
+/// What is sliced: surfaces and triangles in mm that together bound a solid. Nothing is promised about
+/// topology.
 struct Model {
   std::string name;  ///< the file's stem
   std::vector<Surface> surfaces;
+  std::vector<TriangleMesh> meshes;
 };
 
 /// Distance within which points of the model count as the same and a plane touches it, mm (dissertation p.

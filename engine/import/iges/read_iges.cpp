@@ -186,7 +186,9 @@ ImportResult read_iges(std::string_view bytes, const std::string& name) {
       skipped.add(entry.type, reason, directory_line(i));
       continue;
     }
-    result.model.surfaces.push_back({in_millimetres(reader.surface(i), factor, file, i), entry.type,
+    result.model.surfaces.push_back({in_millimetres(reader.surface(i), factor, file, i),
+                                     {},
+                                     entry.type,
                                      static_cast<int>(directory_line(i))});
     made.add(entry.type, {}, directory_line(i));
   }
