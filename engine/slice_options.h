@@ -18,11 +18,21 @@ struct SliceOptions {
 /// error and is the default for printing.
 enum class SlicePosition { kBottom, kMiddle, kTop };
 
+/// Layers whose thickness follows the slope of the surface.
+struct AdaptiveOptions {
+  bool enabled = false;
+  double least_thickness = 0.08;    ///< mm
+  double greatest_thickness = 0.3;  ///< mm
+  double cusp_height = 0.05;        ///< greatest distance of the layers' edges from the surface, mm
+  double greatest_ratio = 1.5;      ///< of neighbouring layers' thickness, above 1
+};
+
 /// Where the slicing planes lie.
 struct SlicingPlanesOptions {
   double layer_thickness = 0.2;        ///< lambda, mm
   double first_layer_thickness = 0.0;  ///< mm; 0: as the others
   SlicePosition position = SlicePosition::kMiddle;
+  AdaptiveOptions adaptive = {};
 };
 
 }  // namespace lamina::engine

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kMostLayers = 1e7;
 
+}  // namespace
+
 double plane_height(double bottom, double top, SlicePosition position) {
   switch (position) {
     case SlicePosition::kBottom:
@@ -21,8 +23,6 @@ double plane_height(double bottom, double top, SlicePosition position) {
   }
   return bottom;
 }
-
-}  // namespace
 
 std::vector<SlicePlane> make_slicing_planes(double z_min, double z_max, const SlicingPlanesOptions& options) {
   const double thickness = options.layer_thickness;

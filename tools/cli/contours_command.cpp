@@ -161,7 +161,7 @@ ExitCode run(const ContoursArguments& arguments) {
   if (bounds.isEmpty())
     throw Failure(ExitCode::kGeometry, model.name + " holds nothing that could be sliced");
   const std::vector<engine::SlicePlane> planes =
-      arguments.heights.empty() ? slicing_planes(bounds, settings.planes) : planes_at(arguments.heights);
+      arguments.heights.empty() ? plan_layers(model, bounds, settings.planes).planes : planes_at(arguments.heights);
   for (const engine::SlicePlane& plane : planes) {
     if (plane.z >= bounds.min().z() && plane.z <= bounds.max().z()) continue;
     say_warnings({fmt::format("z = {} mm misses the model, which reaches from {} to {} mm", plane.z,

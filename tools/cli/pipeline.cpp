@@ -10,6 +10,7 @@
 namespace lamina::tools {
 namespace {
 
+constexpr double kSlopeBins = 0.25;  // width of the slope profile's bins in least thicknesses
 constexpr double kNarrowArea = 1.0;  // mm^2: the tips of sharp corners add up to less
 
 void append_counted(std::vector<std::string>& warnings, std::size_t count, const std::string& what) {
@@ -35,8 +36,11 @@ void SlicingFlaws::add(const engine::Layer& layer) {
 }
 
 ModelGcode::ModelGcode(const PlacedModel& placed, const profiles::Settings& settings)
-    : slicer_(placed.model, slicing_planes(placed.bounds, settings.planes), settings.slice),
-      stream_(settings.gcode, {placed.bounds, slicer_.layer_count()}) {}
+    : layers_(plan_layers(placed.model, placed.bounds, settings.planes)),
+      slicer_(placed.model, layers_.planes, settings.slice),
+      stream_(settings.gcode, {placed.bounds, slicer_.layer_count()}) {
+  flaws_.missed_faces = layers_.missed_faces;
+}
 
 std::optional<std::vector<std::string>> ModelGcode::next() {
   switch (step_) {
@@ -57,10 +61,14 @@ std::optional<std::vector<std::string>> ModelGcode::next() {
   return std::nullopt;
 }
 
-std::vector<engine::SlicePlane> slicing_planes(const engine::Box3& bounds,
-                                               const engine::SlicingPlanesOptions& options) {
+engine::AdaptivePlanes plan_layers(const engine::Model& model, const engine::Box3& bounds,
+                                   const engine::SlicingPlanesOptions& options) {
+  const double bottom = bounds.min().z();
+  const double top = bounds.max().z();
   try {
-    return engine::make_slicing_planes(bounds.min().z(), bounds.max().z(), options);
+    if (!options.adaptive.enabled) return {engine::make_slicing_planes(bottom, top, options)};
+    const double bin = kSlopeBins * options.adaptive.least_thickness;
+    return engine::make_adaptive_planes(engine::measure_slopes(model, bottom, top, bin), top, options);
   } catch (const std::invalid_argument& error) {
     throw Failure(ExitCode::kGeometry, error.what());
   }
@@ -69,6 +77,8 @@ std::vector<engine::SlicePlane> slicing_planes(const engine::Box3& bounds,
 std::vector<std::string> slicing_warnings(const SlicingFlaws& flaws) {
   std::vector<std::string> warnings;
   append_counted(warnings, flaws.empty_layers, "layers are empty: the model has no area there");
+  append_counted(warnings, flaws.missed_faces,
+                 "level faces lie nearer to each other than layer.least_height: layers do not meet them");
   const auto append_gaps = [&](std::size_t count, const char* what, const engine::BridgedGap& widest,
                                double z) {
     if (count == 0) return;

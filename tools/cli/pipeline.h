@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/adaptive_planes.h"
 #include "engine/slicer.h"
 #include "gcode/gcode_stream.h"
 #include "profiles/settings.h"
@@ -22,6 +23,7 @@ struct SlicingFlaws {
   double widest_gap_z = 0.0;
   double dropped_length = 0.0;   ///< of pieces inside the solid, or beyond it where surfaces overlap, mm
   std::size_t empty_layers = 0;  ///< Planes inside the model that meet nothing.
+  std::size_t missed_faces = 0;  ///< Level faces that adaptive layers could not meet.
 
   void add(const engine::Layer& layer);
 };
@@ -47,6 +49,7 @@ class ModelGcode {
  private:
   enum class Step { kHeader, kLayers, kDone };
 
+  engine::AdaptivePlanes layers_;
   engine::Slicer slicer_;
   gcode::GcodeStream stream_;
   Step step_ = Step::kHeader;
@@ -54,9 +57,9 @@ class ModelGcode {
   SlicingFlaws flaws_;
 };
 
-/// The planes of a model of these bounds. Throws Failure where there are too many.
-std::vector<engine::SlicePlane> slicing_planes(const engine::Box3& bounds,
-                                               const engine::SlicingPlanesOptions& options);
+/// The layers of a model of these bounds, even or adaptive. Throws Failure where there are too many.
+engine::AdaptivePlanes plan_layers(const engine::Model& model, const engine::Box3& bounds,
+                                   const engine::SlicingPlanesOptions& options);
 
 /// What the user should know of the slicing: one sentence each.
 std::vector<std::string> slicing_warnings(const SlicingFlaws& flaws);
