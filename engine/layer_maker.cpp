@@ -1,14 +1,28 @@
 #include "engine/layer_maker.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "engine/contour/layer_curves.h"
+#include "engine/contour/slab_chains.h"
 
 namespace lamina::engine {
 namespace {
 
 /// Sub-patches are not divided below this part of epsilon.
 constexpr double kSmallestCell = 0.1;
+/// Rounds of halving the distance of a slab's sections.
+constexpr int kMostSlabRounds = 7;
+/// How far from a level face a section is that does not touch it, mm.
+constexpr double kInside = 10.0 * kModelTolerance;
+
+void add_flaws(LayerReport& report, const LayerReport& more) {
+  report.dropped_pieces += more.dropped_pieces;
+  report.dropped_length += more.dropped_length;
+  report.bridged_gaps.insert(report.bridged_gaps.end(), more.bridged_gaps.begin(), more.bridged_gaps.end());
+  report.open_gaps.insert(report.open_gaps.end(), more.open_gaps.begin(), more.open_gaps.end());
+}
 
 }  // namespace
 
@@ -37,9 +51,60 @@ LayerChains LayerMaker::chains(const FrontState& front, double z, LayerReport& r
   return chains;
 }
 
+LayerChains LayerMaker::slab_chains(const FrontState& front, const SlicePlane& plane, LayerReport& report) {
+  LayerChains nominal = chains(front, plane.z, report);
+  const auto section_at = [&](double z) {
+    LayerReport beside;
+    LayerChains section = chains(front, z, beside);
+    add_flaws(report, beside);
+    return section;
+  };
+  // The ends belong to the slabs next to this one as well: what lies exactly in them is met from within.
+  const double low = plane.bottom + kInside;
+  const double high = plane.top - kInside;
+  std::vector<double> heights{low, high};
+  for (const auto& patch : front.active) {
+    if (patch->z_max - patch->z_min > kModelTolerance) continue;
+    for (const double z : {patch->z_min - kInside, patch->z_max + kInside}) {
+      if (z > low && z < high) heights.push_back(z);
+    }
+  }
+  std::sort(heights.begin(), heights.end());
+  heights.erase(
+      std::unique(heights.begin(), heights.end(), [](double a, double b) { return b - a < 0.5 * kInside; }),
+      heights.end());
+  std::vector<LayerChains> sections;
+  for (const double z : heights) sections.push_back(section_at(z));
+
+  // Sections halfway between show how much the layer lacks, until that is little.
+  const double strip = options_.chord_part * options_.epsilon;
+  LayerChains slab;
+  slab.open = std::move(nominal.open);
+  for (int round = 0;; ++round) {
+    slab.closed = contain_sections(sections, options_.containment, strip);
+    if (round == kMostSlabRounds) break;
+    double deepest = 0.0;
+    std::vector<double> finer;
+    for (std::size_t k = 1; k < heights.size(); ++k) {
+      finer.push_back(0.5 * (heights[k - 1] + heights[k]));
+      LayerChains section = section_at(finer.back());
+      deepest = std::max(deepest, breach(slab.closed, section, options_.containment));
+      sections.push_back(std::move(section));
+    }
+    if (round > 0 && deepest <= strip) {
+      slab.closed = contain_sections(sections, options_.containment, strip);
+      break;
+    }
+    heights.insert(heights.end(), finer.begin(), finer.end());
+    std::sort(heights.begin(), heights.end());
+  }
+  return slab;
+}
+
 Layer LayerMaker::make(const FrontState& front, const SlicePlane& plane, std::size_t index) {
   LayerReport report;
-  const LayerChains found = chains(front, plane.z, report);
+  const LayerChains found = options_.containment == Containment::kNominal ? chains(front, plane.z, report)
+                                                                          : slab_chains(front, plane, report);
   const double began = now();
   Layer layer = make_curves(found, options_);
   layer.index = index;

@@ -23,6 +23,9 @@ class LayerMaker {
   Layer make(const FrontState& front, const SlicePlane& plane, std::size_t index);
 
  private:
+  /// What the layer's slab and the patches have in common, as `containment` asks for.
+  LayerChains slab_chains(const FrontState& front, const SlicePlane& plane, LayerReport& report);
+
   double now() const { return options_.clock == nullptr ? 0.0 : options_.clock(); }
 
   SliceOptions options_;

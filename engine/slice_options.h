@@ -2,6 +2,10 @@
 
 namespace lamina::engine {
 
+/// What a layer stands for: the section at its plane, or one that contains (or is contained in) every section
+/// of its slab (dissertation, chapter five).
+enum class Containment { kNominal, kPositive, kNegative };
+
 /// How the model is cut and its contours are made into curves.
 struct SliceOptions {
   double epsilon = 0.05;     ///< tolerance: side of a grid cell and the accuracy promised in a layer, mm
@@ -9,6 +13,7 @@ struct SliceOptions {
   double fit_part = 0.05;    ///< greatest distance of the fitted curves from the section, part of epsilon
   int greatest_degree = 5;   ///< of the fitted curves, 2 to 5
   double longest_bridge = 0.5;  ///< gaps up to this are closed and reported, mm
+  Containment containment = Containment::kNominal;
   bool unite_all = false;       ///< every chain goes through the arrangement, whether it meets another or not
   int threads = 1;              ///< that make layers at the same time; 0: one a core
   double (*clock)() = nullptr;  ///< seconds from any start; where given, the stages' times are reported

@@ -48,6 +48,7 @@ std::vector<SlicePlane> checked(const Model& model, std::vector<SlicePlane> plan
 
 Slicer::Slicer(const Model& model, std::vector<SlicePlane> planes, const SliceOptions& options)
     : planes_(checked(model, std::move(planes), options)),
+      contained_(options.containment != Containment::kNominal),
       front_(model),
       queue_(std::make_unique<LayerQueue>(options)) {}
 
@@ -58,7 +59,11 @@ Slicer& Slicer::operator=(Slicer&&) noexcept = default;
 std::optional<Layer> Slicer::next() {
   while (queue_->has_room() && next_plane_ < planes_.size()) {
     const SlicePlane& plane = planes_[next_plane_];
-    front_.advance(plane.z, kModelTolerance);
+    if (contained_) {
+      front_.advance(0.5 * (plane.bottom + plane.top), 0.5 * plane.thickness() + kModelTolerance);
+    } else {
+      front_.advance(plane.z, kModelTolerance);
+    }
     queue_->push(front_.state(), plane, next_plane_++);
   }
   return queue_->pop();

@@ -43,6 +43,7 @@ class Slicer {
 
  private:
   std::vector<SlicePlane> planes_;
+  bool contained_ = false;  ///< layers stand for their slabs
   PatchFront front_;
   std::unique_ptr<LayerQueue> queue_;
   std::size_t next_plane_ = 0;

@@ -79,6 +79,8 @@ std::vector<Key> slicing_keys() {
                       "of the fitted curves, at most"),
       slicing.number("longest_bridge", &SliceOptions::longest_bridge, "mm", within(0.0, 100.0),
                      "gaps in the model up to this are closed and reported"),
+      slicing.choice("containment", &SliceOptions::containment, {"nominal", "positive", "negative"},
+                     "what a layer stands for: its plane, all sections of its slab, or what they share"),
       planes.choice("position", &SlicingPlanesOptions::position, {"bottom", "middle", "top"},
                     "where a plane cuts its layer"),
       region.number("tolerance", &RegionOptions::tolerance, "mm", above(0.0, 1.0),

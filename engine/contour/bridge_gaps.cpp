@@ -146,7 +146,7 @@ std::size_t open_count(const std::vector<NodeChain>& chains) {
 void lead_to_chains(std::vector<NodeChain>& chains, double reach, LayerReport& report) {
   const std::vector<NodeChain> before = chains;
   for (std::uint32_t end = 0; end < 2 * chains.size(); ++end) {
-    if (before[end / 2].closed) continue;
+    if (before[end / 2].closed || !end_node(before, end).exact) continue;  // led there already
     const Vector2 place = end_node(before, end).position;
     double best = reach;
     Vector2 target = place;
@@ -224,7 +224,9 @@ std::vector<NodeChain> bridge_gaps(std::vector<NodeChain> chains, const BridgeOp
   if (open_count(chains) == 0) return chains;
   lead_to_chains(chains, options.epsilon, report);
   bridge(options.longest_bridge);
-  if (open_count(chains) != 0) report_open(chains, report);
+  if (open_count(chains) == 0) return chains;
+  lead_to_chains(chains, options.longest_bridge, report);
+  report_open(chains, report);
   return chains;
 }
 

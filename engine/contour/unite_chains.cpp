@@ -98,14 +98,15 @@ class Outliner {
   const PlanarGraph& graph_;
 };
 
-/// Closed walks along half-edges with the solid on the left and none on the right. At a vertex the walk stays
-/// beside the same part of the solid, so solids that touch in a point keep their own outlines.
+/// Closed walks along half-edges with the solid on the left and none on the right; the solid is the faces
+/// that are `filled`. At a vertex the walk stays beside the same part of the solid, so solids that touch in a
+/// point keep their own outlines.
 std::vector<std::vector<std::uint32_t>> outline_walks(const PlanarGraph& graph, const PlanarFaces& faces,
-                                                      const std::vector<int>& winding) {
+                                                      const std::vector<bool>& filled) {
   std::vector<bool> on_outline(2 * graph.edges.size(), false);
   for (std::uint32_t half = 0; half < on_outline.size(); ++half) {
     if (faces.dangling[half / 2]) continue;
-    on_outline[half] = winding[faces.face[half]] != 0 && winding[faces.face[half ^ 1U]] == 0;
+    on_outline[half] = filled[faces.face[half]] && !filled[faces.face[half ^ 1U]];
   }
   std::vector<std::vector<std::uint32_t>> walks;
   std::vector<bool> used(on_outline.size(), false);
@@ -143,23 +144,35 @@ bool inside(const std::vector<NodeChain>& outlines, const Vector2& p) {
   return result;
 }
 
-/// Dead ends as pieces of their chains.
-std::vector<NodeChain> dangling_pieces(const std::vector<NodeChain>& chains, const PlanarGraph& graph,
+/// Dead ends, and edges that lead from one closed walk to another through one and the same face.
+bool bounds_nothing(const PlanarFaces& faces, std::uint32_t edge) {
+  return faces.dangling[edge] || faces.face[2 * edge] == faces.face[2 * edge + 1];
+}
+
+/// What bounds nothing, as pieces of their chains, cut where they meet what does bound.
+std::vector<NodeChain> unbounding_pieces(const std::vector<NodeChain>& chains, const PlanarGraph& graph,
                                        const PlanarFaces& faces) {
   struct Part {
     std::uint32_t chain, segment;
     double place;
     Vector2 from, to;
+    bool begins;  ///< at an edge that bounds
   };
+  std::vector<bool> bounding(graph.vertices.size(), false);
+  for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
+    if (!bounds_nothing(faces, e)) bounding[graph.edges[e].a] = bounding[graph.edges[e].b] = true;
+  }
   std::vector<Part> parts;
   for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
-    if (!faces.dangling[e]) continue;
+    if (!bounds_nothing(faces, e)) continue;
     const ChainPart& part = graph.edges[e].parts.front();
-    Vector2 from = position_of(graph.vertices[graph.edges[e].a]);
-    Vector2 to = position_of(graph.vertices[graph.edges[e].b]);
-    if (!part.forward) std::swap(from, to);
+    std::uint32_t a = graph.edges[e].a;
+    std::uint32_t b = graph.edges[e].b;
+    if (!part.forward) std::swap(a, b);
+    const Vector2 from = position_of(graph.vertices[a]);
     parts.push_back({part.chain, part.segment,
-                     (from - chains[part.chain].nodes[part.segment].position).norm(), from, to});
+                     (from - chains[part.chain].nodes[part.segment].position).norm(), from,
+                     position_of(graph.vertices[b]), bounding[a]});
   }
   std::sort(parts.begin(), parts.end(), [](const Part& p, const Part& q) {
     return std::tie(p.chain, p.segment, p.place) < std::tie(q.chain, q.segment, q.place);
@@ -167,7 +180,8 @@ std::vector<NodeChain> dangling_pieces(const std::vector<NodeChain>& chains, con
   std::vector<NodeChain> pieces;
   const Part* before = nullptr;
   for (const Part& part : parts) {
-    if (before == nullptr || before->chain != part.chain || !(before->to == part.from)) {
+    if (before == nullptr || before->chain != part.chain || !(before->to == part.from) ||
+        part.begins) {
       pieces.emplace_back();
       ContourNode start;
       start.position = part.from;
@@ -198,7 +212,28 @@ double piece_length(const NodeChain& chain) {
   return length;
 }
 
+std::vector<NodeChain> outlines_of(const std::vector<NodeChain>& chains, const PlanarGraph& graph,
+                                   const PlanarFaces& faces, const std::vector<bool>& filled) {
+  std::vector<NodeChain> outlines;
+  const Outliner outliner(chains, graph);
+  for (const std::vector<std::uint32_t>& walk : outline_walks(graph, faces, filled)) {
+    NodeChain outline = outliner.outline(walk);
+    if (outline.nodes.size() >= 2) outlines.push_back(std::move(outline));
+  }
+  return outlines;
+}
+
 }  // namespace
+
+std::vector<NodeChain> covered_outlines(const std::vector<NodeChain>& chains, int least_cover) {
+  const PlanarGraph graph = draw_planar_graph(chains);
+  const PlanarFaces faces = find_faces(graph);
+  const std::vector<int> winding = face_windings(graph, faces, std::vector<int>(chains.size(), 1));
+  std::vector<bool> filled;
+  filled.reserve(winding.size());
+  for (const int cover : winding) filled.push_back(cover >= least_cover);
+  return outlines_of(chains, graph, faces, filled);
+}
 
 UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_open, Filling filling) {
   const PlanarGraph graph = draw_planar_graph(chains);
@@ -208,12 +243,11 @@ UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_
   const std::vector<int> winding = face_windings(graph, faces, orientations);
 
   UnitedChains result;
-  const Outliner outliner(chains, graph);
-  for (const std::vector<std::uint32_t>& walk : outline_walks(graph, faces, winding)) {
-    NodeChain outline = outliner.outline(walk);
-    if (outline.nodes.size() >= 2) result.outlines.push_back(std::move(outline));
-  }
-  for (NodeChain& piece : dangling_pieces(chains, graph, faces)) {
+  std::vector<bool> filled;
+  filled.reserve(winding.size());
+  for (const int cover : winding) filled.push_back(cover != 0);
+  result.outlines = outlines_of(chains, graph, faces, filled);
+  for (NodeChain& piece : unbounding_pieces(chains, graph, faces)) {
     const double length = piece_length(piece);
     const Vector2 middle = piece.nodes[piece.nodes.size() / 2].position;
     const Vector2 before = piece.nodes[(piece.nodes.size() - 1) / 2].position;
@@ -225,8 +259,7 @@ UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_
     }
   }
   for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
-    if (faces.dangling[e] || (winding[faces.face[2 * e]] == 0) != (winding[faces.face[2 * e + 1]] == 0))
-      continue;
+    if (bounds_nothing(faces, e) || filled[faces.face[2 * e]] != filled[faces.face[2 * e + 1]]) continue;
     result.dropped_length +=
         (position_of(graph.vertices[graph.edges[e].a]) - position_of(graph.vertices[graph.edges[e].b]))
             .norm();

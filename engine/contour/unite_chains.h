@@ -27,4 +27,9 @@ enum class Filling {
 UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_open,
                           Filling filling = Filling::kJudged);
 
+/// Outlines, interior on the left, of where at least `least_cover` of the regions lie on top of each other
+/// that closed chains bound; every chain runs with its region on the left. The same for chains that cross,
+/// touch or coincide.
+std::vector<NodeChain> covered_outlines(const std::vector<NodeChain>& chains, int least_cover);
+
 }  // namespace lamina::engine

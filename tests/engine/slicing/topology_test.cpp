@@ -154,6 +154,37 @@ TEST_CASE("gaps are bridged and reported, up to the limit", "[slicing]") {
   CHECK(std::abs(report.open_gaps.front().width() - 0.8) < 0.01);
 }
 
+TEST_CASE("an end that stops beside another chain is led to it across a gap wider than epsilon", "[slicing]") {
+  // The front wall overshoots both corners, by 2 mm; the side walls stop 0.3 mm short of it.
+  const auto wall = [](const Vector2& from, const Vector2& to) {
+    return bilinear({from.x(), from.y(), 0}, {to.x(), to.y(), 0}, {from.x(), from.y(), 5},
+                    {to.x(), to.y(), 5});
+  };
+  const Model room = model_of("room", {wall({-2, 0}, {12, 0}), wall({10, 0.3}, {10, 10}),
+                                       wall({10, 10}, {0, 10}), wall({0, 10}, {0, 0.3})});
+  engine::SliceOptions options;
+  options.epsilon = 0.05;
+  const auto [chains, report] = reported_chains_at(room, 2.0, options);
+  REQUIRE(chains.closed.size() == 1);
+  CHECK(std::abs(area_of(chains) - 100.0) < 1e-4);
+  CHECK(chains.open.size() == 2);
+  CHECK(report.bridged_gaps.size() == 2);
+  for (const engine::BridgedGap& gap : report.bridged_gaps) CHECK(gap.width() == Approx(0.3));
+}
+
+TEST_CASE("a wall between two solids bounds nothing and stays as an open contour", "[slicing]") {
+  Model model = united("dumbbell", {box({0, 0, 0}, {2, 2, 5}).model, box({12, 0, 0}, {14, 2, 5}).model});
+  engine::Surface between;
+  between.nurbs = bilinear({1.5, 1, 0}, {12.5, 1, 0}, {1.5, 1, 5}, {12.5, 1, 5});
+  model.surfaces.push_back(between);
+  const LayerChains chains = chains_at(model, 2.0, 0.05);
+  CHECK(chains.closed.size() == 2);
+  CHECK(std::abs(area_of(chains) - 8.0) < 1e-6);
+  REQUIRE(chains.open.size() == 1);
+  CHECK((chains.open.front().nodes.front().position - chains.open.front().nodes.back().position).norm() ==
+        Approx(10.0));
+}
+
 TEST_CASE("walls that overshoot at their corners are cut there", "[slicing]") {
   // A square room of four walls, each longer than needed by 1 mm at both ends.
   const auto wall = [](const Vector2& a, const Vector2& b) {
