@@ -6,6 +6,8 @@
 
 #include "engine/contour/layer_curves.h"
 #include "engine/contour/slab_chains.h"
+#include "engine/model.h"
+#include "engine/pointcloud/facet_section.h"
 
 namespace lamina::engine {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 constexpr double kSmallestCell = 0.1;
 /// Rounds of halving the distance of a slab's sections.
 constexpr int kMostSlabRounds = 7;
+/// Meshes are numbered after all surfaces that a model can have.
+constexpr std::uint32_t kMeshesFrom = 1U << 31U;
 /// How far from a level face a section is that does not touch it, mm.
 constexpr double kInside = 10.0 * kModelTolerance;
 
@@ -34,8 +38,10 @@ LayerMaker::LayerMaker(const SliceOptions& options)
 LayerChains LayerMaker::chains(const FrontState& front, double z, LayerReport& report) {
   const double began = now();
   section_.clear();
-  for (const auto& patch : front.active) patch_section_.cut(*patch, z, section_);
-  report.active_patches = front.active.size();
+  for (const auto& patch : front.patches) patch_section_.cut(*patch, z, section_);
+  for (const FrontFacet& facet : front.facets) cut_facet(facet, kMeshesFrom + facet.mesh, z, section_);
+  report.active_patches = front.patches.size();
+  report.active_facets = front.facets.size();
   report.patches_added = front.added;
   report.patches_removed = front.removed;
   report.cells = section_.cells;
@@ -63,7 +69,7 @@ LayerChains LayerMaker::slab_chains(const FrontState& front, const SlicePlane& p
   const double low = plane.bottom + kInside;
   const double high = plane.top - kInside;
   std::vector<double> heights{low, high};
-  for (const auto& patch : front.active) {
+  for (const auto& patch : front.patches) {
     if (patch->z_max - patch->z_min > kModelTolerance) continue;
     for (const double z : {patch->z_min - kInside, patch->z_max + kInside}) {
       if (z > low && z < high) heights.push_back(z);

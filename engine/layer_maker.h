@@ -5,7 +5,7 @@
 #include "engine/contour/layer_chains.h"
 #include "engine/grid/meetings.h"
 #include "engine/layer.h"
-#include "engine/pointcloud/patch_front.h"
+#include "engine/pointcloud/front_state.h"
 #include "engine/pointcloud/patch_section.h"
 #include "engine/slice_options.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/layer.h"
-#include "engine/pointcloud/patch_front.h"
+#include "engine/pointcloud/front_state.h"
 #include "engine/slice_options.h"
 
 namespace lamina::engine {

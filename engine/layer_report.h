@@ -25,6 +25,7 @@ struct LayerReport {
   };
 
   std::size_t active_patches = 0;
+  std::size_t active_facets = 0;
   std::size_t patches_added = 0;
   std::size_t patches_removed = 0;
   std::size_t cells = 0;  ///< sub-patches looked at

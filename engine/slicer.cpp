@@ -49,7 +49,8 @@ std::vector<SlicePlane> checked(const Model& model, std::vector<SlicePlane> plan
 Slicer::Slicer(const Model& model, std::vector<SlicePlane> planes, const SliceOptions& options)
     : planes_(checked(model, std::move(planes), options)),
       contained_(options.containment != Containment::kNominal),
-      front_(model),
+      patches_(model),
+      facets_(model),
       queue_(std::make_unique<LayerQueue>(options)) {}
 
 Slicer::~Slicer() = default;
@@ -59,12 +60,15 @@ Slicer& Slicer::operator=(Slicer&&) noexcept = default;
 std::optional<Layer> Slicer::next() {
   while (queue_->has_room() && next_plane_ < planes_.size()) {
     const SlicePlane& plane = planes_[next_plane_];
-    if (contained_) {
-      front_.advance(0.5 * (plane.bottom + plane.top), 0.5 * plane.thickness() + kModelTolerance);
-    } else {
-      front_.advance(plane.z, kModelTolerance);
-    }
-    queue_->push(front_.state(), plane, next_plane_++);
+    const double middle = contained_ ? 0.5 * (plane.bottom + plane.top) : plane.z;
+    const double reach = contained_ ? 0.5 * plane.thickness() + kModelTolerance : kModelTolerance;
+    patches_.advance(middle, reach);
+    facets_.advance(middle, reach);
+    FrontState front = patches_.state();
+    front.facets = facets_.active();
+    front.added += facets_.added();
+    front.removed += facets_.removed();
+    queue_->push(std::move(front), plane, next_plane_++);
   }
   return queue_->pop();
 }

@@ -8,6 +8,7 @@
 
 #include "engine/layer.h"
 #include "engine/model.h"
+#include "engine/pointcloud/facet_front.h"
 #include "engine/pointcloud/patch_front.h"
 #include "engine/slice_options.h"
 
@@ -39,12 +40,13 @@ class Slicer {
   std::optional<Layer> next();
 
   std::size_t layer_count() const { return planes_.size(); }
-  std::size_t patch_count() const { return front_.patch_count(); }
+  std::size_t patch_count() const { return patches_.patch_count(); }
 
  private:
   std::vector<SlicePlane> planes_;
   bool contained_ = false;  ///< layers stand for their slabs
-  PatchFront front_;
+  PatchFront patches_;
+  FacetFront facets_;
   std::unique_ptr<LayerQueue> queue_;
   std::size_t next_plane_ = 0;
 };

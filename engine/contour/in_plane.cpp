@@ -98,7 +98,7 @@ std::vector<NodeChain> flat_loops(const Section& section) {
   for (const FlatPiece& flat : section.flats) {
     NodeChain loop;
     loop.closed = true;
-    for (std::uint32_t side = 0; side < 4; ++side) {
+    for (std::uint32_t side = 0; side < flat.arc_count; ++side) {
       const SectionArc& arc = section.flat_rims[flat.first_arc + side];
       for (std::uint32_t k = 0; k + 1 < arc.count; ++k) {
         const SectionNode& node = section.nodes[arc.first + k];
@@ -109,7 +109,7 @@ std::vector<NodeChain> flat_loops(const Section& section) {
         }
       }
     }
-    loop.nodes.front().tangent_in = section.back(section.flat_rims[flat.first_arc + 3]).tangent;
+    loop.nodes.front().tangent_in = section.back(section.flat_rims[flat.first_arc + flat.arc_count - 1]).tangent;
     for (ContourNode& node : loop.nodes) node.corner = is_corner(node.tangent_in, node.tangent_out);
     loops.push_back(std::move(loop));
   }

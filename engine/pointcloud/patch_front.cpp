@@ -38,7 +38,7 @@ PatchFront::PatchFront(const Model& model) {
 }
 
 void PatchFront::advance(double z, double reach) {
-  state_.removed = std::erase_if(state_.active, [&](const auto& patch) { return patch->z_max < z - reach; });
+  state_.removed = std::erase_if(state_.patches, [&](const auto& patch) { return patch->z_max < z - reach; });
   state_.added = 0;
   for (; next_ < spans_.size() && spans_[next_].z_min <= z + reach; ++next_) {
     const Span& span = spans_[next_];
@@ -47,7 +47,7 @@ void PatchFront::advance(double z, double reach) {
     auto patch = std::make_shared<FrontPatch>(
         FrontPatch{source.u.degree(), source.v.degree(), span.surface, span.z_min, span.z_max, {}});
     cut(span, patch->points);
-    state_.active.push_back(std::move(patch));
+    state_.patches.push_back(std::move(patch));
     ++state_.added;
   }
 }

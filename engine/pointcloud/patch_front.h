@@ -2,31 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "engine/geometry/vector.h"
 #include "engine/model.h"
 #include "engine/pointcloud/bezier_spans.h"
+#include "engine/pointcloud/front_state.h"
 
 namespace lamina::engine {
-
-/// The control net of a Bezier patch that the current plane may meet; homogeneous points, v fastest.
-struct FrontPatch {
-  int degree_u = 1;
-  int degree_v = 1;
-  std::uint32_t surface = 0;  ///< of the model
-  double z_min = 0.0;         ///< of the net, mm
-  double z_max = 0.0;
-  std::vector<Vector4> points;
-};
-
-/// The patches that a plane may meet, in the order in which the plane reached them.
-struct FrontState {
-  std::vector<std::shared_ptr<const FrontPatch>> active;
-  std::size_t added = 0;    ///< by the last advance
-  std::size_t removed = 0;  ///< by the last advance
-};
 
 /// The model's Bezier patches, one to each pair of knot spans, by ascending z minimum (the global list), and
 /// those that a rising plane may meet (the active list; dissertation p. 124 to 128). A net is cut out of its
@@ -40,6 +23,7 @@ class PatchFront {
   /// decrease.
   void advance(double z, double reach);
 
+  /// The active list; no facets.
   const FrontState& state() const { return state_; }
   std::size_t patch_count() const { return spans_.size(); }
 

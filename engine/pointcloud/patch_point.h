@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/geometry/vector.h"
-#include "engine/pointcloud/patch_front.h"
+#include "engine/pointcloud/front_state.h"
 #include "engine/pointcloud/section_arc.h"
 
 namespace lamina::engine {

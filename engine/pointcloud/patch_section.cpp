@@ -416,7 +416,7 @@ void PatchSection::emit_flat(const Rectangle& r) {
   Box2 box;
   for (std::size_t k = section_->flat_rims[first].first; k < section_->nodes.size(); ++k)
     box.extend(section_->nodes[k].position);
-  section_->flats.push_back({static_cast<std::uint32_t>(first), box.sizes().maxCoeff()});
+  section_->flats.push_back({static_cast<std::uint32_t>(first), 4, box.sizes().maxCoeff()});
 }
 
 }  // namespace lamina::engine

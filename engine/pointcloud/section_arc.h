@@ -37,9 +37,10 @@ struct TouchCandidate {
   bool above = false;  ///< the patch lies above the plane
 };
 
-/// A piece of a patch that lies in the plane: its outline is the four arcs from `first_arc` on.
+/// A piece of a patch that lies in the plane: its outline is the arcs from `first_arc` on.
 struct FlatPiece {
   std::uint32_t first_arc = 0;
+  std::uint32_t arc_count = 0;
   double size = 0.0;  ///< larger side, mm
 };
 
@@ -47,7 +48,7 @@ struct FlatPiece {
 struct Section {
   std::vector<SectionNode> nodes;
   std::vector<SectionArc> arcs;
-  std::vector<SectionArc> flat_rims;  ///< outlines of flat pieces, four to each
+  std::vector<SectionArc> flat_rims;  ///< outlines of flat pieces
   std::vector<FlatPiece> flats;
   std::vector<TouchCandidate> touches;
   std::size_t cells = 0;  ///< sub-patches looked at

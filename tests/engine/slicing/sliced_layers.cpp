@@ -4,16 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/pointcloud/facet_front.h"
+#include "engine/pointcloud/patch_front.h"
+
 namespace lamina::tests {
 
 using engine::Loop;
 using engine::Vector2;
 
 ReportedChains reported_chains_at(const engine::Model& model, double z, const engine::SliceOptions& options) {
-  engine::PatchFront front(model);
-  front.advance(z, engine::kModelTolerance);
+  engine::PatchFront patches(model);
+  patches.advance(z, engine::kModelTolerance);
+  engine::FacetFront facets(model);
+  facets.advance(z, engine::kModelTolerance);
+  engine::FrontState front = patches.state();
+  front.facets = facets.active();
   ReportedChains result;
-  result.chains = engine::LayerMaker(options).chains(front.state(), z, result.report);
+  result.chains = engine::LayerMaker(options).chains(front, z, result.report);
   return result;
 }
 

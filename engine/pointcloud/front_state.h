@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/geometry/vector.h"
+
+namespace lamina::engine {
+
+/// The control net of a Bezier patch that the current plane may meet; homogeneous points, v fastest.
+struct FrontPatch {
+  int degree_u = 1;
+  int degree_v = 1;
+  std::uint32_t surface = 0;  ///< of the model
+  double z_min = 0.0;         ///< of the net, mm
+  double z_max = 0.0;
+  std::vector<Vector4> points;
+};
+
+/// A triangle that the current plane may meet.
+struct FrontFacet {
+  Eigen::Vector3f corners[3];
+  std::uint32_t mesh = 0;  ///< of the model
+};
+
+/// What a plane may meet of the model, in the order in which the plane reached it.
+struct FrontState {
+  std::vector<std::shared_ptr<const FrontPatch>> patches;
+  std::vector<FrontFacet> facets;
+  std::size_t added = 0;    ///< by the last advance, patches and facets
+  std::size_t removed = 0;  ///< by the last advance
+};
+
+}  // namespace lamina::engine
