@@ -8,6 +8,7 @@
 #include "engine/contour/slab_chains.h"
 #include "engine/model.h"
 #include "engine/pointcloud/facet_section.h"
+#include "engine/pointcloud/trim_section.h"
 
 namespace lamina::engine {
 namespace {
@@ -38,7 +39,14 @@ LayerMaker::LayerMaker(const SliceOptions& options)
 LayerChains LayerMaker::chains(const FrontState& front, double z, LayerReport& report) {
   const double began = now();
   section_.clear();
-  for (const auto& patch : front.patches) patch_section_.cut(*patch, z, section_);
+  for (const auto& patch : front.patches) {
+    const SectionMark mark = mark_of(section_);
+    patch_section_.cut(*patch, z, section_);
+    if (patch->trim != nullptr) trim_section(section_, mark, *patch, z);
+  }
+  for (const auto& region : front.regions) {
+    add_trim_edges(section_, *region, z, options_.chord_part * options_.epsilon);
+  }
   for (const FrontFacet& facet : front.facets) cut_facet(facet, kMeshesFrom + facet.mesh, z, section_);
   report.active_patches = front.patches.size();
   report.active_facets = front.facets.size();

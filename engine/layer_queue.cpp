@@ -1,5 +1,6 @@
 #include "engine/layer_queue.h"
 
+#include <algorithm>
 #include <deque>
 #include <utility>
 
@@ -32,7 +33,7 @@ struct LayerQueue::Workshop {
 
   explicit Workshop(const SliceOptions& options)
       : threads(thread_count(options.threads)),
-        arena(threads),
+        arena(std::min(threads, oneapi::tbb::info::default_concurrency())),  // it would warn of more
         makers([options] { return LayerMaker(options); }) {}
 
   void make(Job& job) {

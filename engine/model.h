@@ -44,11 +44,11 @@ struct Model {
 /// 156).
 inline constexpr double kModelTolerance = 1e-6;
 
+/// Box around the vertices that facets use.
+Box3 bounds(const TriangleMesh& mesh);
+
 /// Box around all control nets, hence around the model; tight only where the nets are.
 Box3 control_box(const Model& model);
-
-/// Box around the surfaces themselves: too large or too small by at most a micrometre on any side.
-Box3 model_bounds(const Model& model);
 
 /// The model turned, scaled and moved.
 Model transformed(const Model& model, const Eigen::Affine3d& transform);

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
-#include "engine/nurbs/bezier.h"
+#include "engine/pointcloud/placed_patches.h"
 
 namespace lamina::engine {
 namespace {
@@ -148,7 +149,10 @@ class Profiler {
 SlopeProfile measure_slopes(const Model& model, double bottom, double top, double bin) {
   Profiler profiler(bottom, top, bin);
   for (const Surface& surface : model.surfaces) {
-    for (const BezierPatch& patch : bezier_patches(surface.nurbs)) profiler.add(patch, 0);
+    std::optional<TrimRegion> region;
+    if (!surface.trim.empty()) region.emplace(surface, 0);
+    for (const PlacedPatch& placed : placed_patches(surface, region ? &*region : nullptr))
+      profiler.add(placed.patch, 0);
   }
   for (const TriangleMesh& mesh : model.meshes) {
     const auto vertex = [&](std::uint32_t v) { return Vector3(mesh.vertices[v].cast<double>()); };

@@ -56,13 +56,6 @@ std::vector<int> chain_orientations(const std::vector<NodeChain>& chains, const 
   return orientations;
 }
 
-std::vector<int> filled_orientations(const std::vector<NodeChain>& chains) {
-  std::vector<int> orientations;
-  orientations.reserve(chains.size());
-  for (const NodeChain& chain : chains) orientations.push_back(chain_area(chain) > 0.0 ? 1 : -1);
-  return orientations;
-}
-
 std::vector<int> face_windings(const PlanarGraph& graph, const PlanarFaces& faces,
                                const std::vector<int>& orientations) {
   std::vector<std::vector<std::uint32_t>> halves_of(faces.face_count);

@@ -17,9 +17,6 @@ namespace lamina::engine {
 std::vector<int> chain_orientations(const std::vector<NodeChain>& chains, const PlanarGraph& graph,
                                     const PlanarFaces& faces);
 
-/// The same for closed chains that are all filled inside.
-std::vector<int> filled_orientations(const std::vector<NodeChain>& chains);
-
 /// How often each face is covered by the solids, from 0 outside, breadth first.
 std::vector<int> face_windings(const PlanarGraph& graph, const PlanarFaces& faces,
                                const std::vector<int>& orientations);

@@ -109,7 +109,8 @@ std::vector<NodeChain> flat_loops(const Section& section) {
         }
       }
     }
-    loop.nodes.front().tangent_in = section.back(section.flat_rims[flat.first_arc + flat.arc_count - 1]).tangent;
+    loop.nodes.front().tangent_in =
+        section.back(section.flat_rims[flat.first_arc + flat.arc_count - 1]).tangent;
     for (ContourNode& node : loop.nodes) node.corner = is_corner(node.tangent_in, node.tangent_out);
     loops.push_back(std::move(loop));
   }
@@ -119,8 +120,12 @@ std::vector<NodeChain> flat_loops(const Section& section) {
 std::vector<FaceOutline> face_outlines(const Section& section) {
   std::vector<FaceOutline> faces;
   if (section.flats.empty()) return faces;
-  std::vector<NodeChain> outlines =
-      unite_chains(flat_loops(section), std::numeric_limits<double>::infinity(), Filling::kAll).outlines;
+  std::vector<NodeChain> loops_in = flat_loops(section);
+  for (std::size_t k = 0; k < loops_in.size(); ++k) {
+    // The face on the left: around a hole clockwise.
+    if ((signed_area(loop_of(loops_in[k])) > 0.0) == section.flats[k].hole) reverse(loops_in[k]);
+  }
+  std::vector<NodeChain> outlines = covered_outlines(loops_in, 1);
   std::vector<NodeChain> holes;
   std::vector<Loop> loops;
   for (NodeChain& outline : outlines) {

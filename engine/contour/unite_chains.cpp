@@ -151,7 +151,7 @@ bool bounds_nothing(const PlanarFaces& faces, std::uint32_t edge) {
 
 /// What bounds nothing, as pieces of their chains, cut where they meet what does bound.
 std::vector<NodeChain> unbounding_pieces(const std::vector<NodeChain>& chains, const PlanarGraph& graph,
-                                       const PlanarFaces& faces) {
+                                         const PlanarFaces& faces) {
   struct Part {
     std::uint32_t chain, segment;
     double place;
@@ -180,8 +180,7 @@ std::vector<NodeChain> unbounding_pieces(const std::vector<NodeChain>& chains, c
   std::vector<NodeChain> pieces;
   const Part* before = nullptr;
   for (const Part& part : parts) {
-    if (before == nullptr || before->chain != part.chain || !(before->to == part.from) ||
-        part.begins) {
+    if (before == nullptr || before->chain != part.chain || !(before->to == part.from) || part.begins) {
       pieces.emplace_back();
       ContourNode start;
       start.position = part.from;
@@ -235,12 +234,10 @@ std::vector<NodeChain> covered_outlines(const std::vector<NodeChain>& chains, in
   return outlines_of(chains, graph, faces, filled);
 }
 
-UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_open, Filling filling) {
+UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_open) {
   const PlanarGraph graph = draw_planar_graph(chains);
   const PlanarFaces faces = find_faces(graph);
-  const std::vector<int> orientations =
-      filling == Filling::kAll ? filled_orientations(chains) : chain_orientations(chains, graph, faces);
-  const std::vector<int> winding = face_windings(graph, faces, orientations);
+  const std::vector<int> winding = face_windings(graph, faces, chain_orientations(chains, graph, faces));
 
   UnitedChains result;
   std::vector<bool> filled;

@@ -16,16 +16,10 @@ struct UnitedChains {
   double dropped_length = 0.0;     ///< mm
 };
 
-enum class Filling {
-  kJudged,  ///< by where the chains run, see `chain_orientations`
-  kAll,     ///< every chain is closed and filled inside
-};
-
 /// The outline of the union of what the chains bound. Where two chains cross, the outline has a corner at the
 /// crossing of their curves, found by Newton steps on cubics through the nodes and tangents. Dead ends
 /// shorter than `shortest_open` (mm) or inside the solid are dropped and counted.
-UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_open,
-                          Filling filling = Filling::kJudged);
+UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_open);
 
 /// Outlines, interior on the left, of where at least `least_cover` of the regions lie on top of each other
 /// that closed chains bound; every chain runs with its region on the left. The same for chains that cross,

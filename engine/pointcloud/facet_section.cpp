@@ -38,8 +38,8 @@ bool append_arc(Vector2 from, Vector2 to, const Vector2& direction, SectionArc a
   const Vector2 tangent = (to - from).normalized();
   arc.first = static_cast<std::uint32_t>(section.nodes.size());
   arc.count = 2;
-  section.nodes.push_back({from, tangent});
-  section.nodes.push_back({to, tangent});
+  section.nodes.push_back({from, tangent, Vector2::Zero()});
+  section.nodes.push_back({to, tangent, Vector2::Zero()});
   arcs.push_back(arc);
   return true;
 }
@@ -53,7 +53,7 @@ void append_flat(const std::array<Corner, 3>& corners, std::uint32_t surface, Se
     box.extend(from);
     append_arc(from, to, to - from, {0, 0, surface, ArcKind::kFlatRim, false}, section, section.flat_rims);
   }
-  section.flats.push_back({first, 3, box.sizes().maxCoeff()});
+  section.flats.push_back({first, 3, box.sizes().maxCoeff(), false});
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 
 namespace lamina::engine {
 
+class TrimRegion;
+
 /// The control net of a Bezier patch that the current plane may meet; homogeneous points, v fastest.
 struct FrontPatch {
   int degree_u = 1;
@@ -16,6 +18,9 @@ struct FrontPatch {
   std::uint32_t surface = 0;  ///< of the model
   double z_min = 0.0;         ///< of the net, mm
   double z_max = 0.0;
+  Vector2 low = Vector2::Zero();           ///< corner of the patch in the surface's parameter plane
+  Vector2 high = Vector2::Ones();          ///< the one opposite
+  std::shared_ptr<const TrimRegion> trim;  ///< of a patch that trim curves cut; null where all of it counts
   std::vector<Vector4> points;
 };
 
@@ -29,6 +34,8 @@ struct FrontFacet {
 struct FrontState {
   std::vector<std::shared_ptr<const FrontPatch>> patches;
   std::vector<FrontFacet> facets;
+  std::vector<std::shared_ptr<const TrimRegion>>
+      regions;              ///< trimmed surfaces whose trim curves the plane may meet
   std::size_t added = 0;    ///< by the last advance, patches and facets
   std::size_t removed = 0;  ///< by the last advance
 };

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+
+#include "engine/geometry/bspline_basis.h"
+#include "engine/pointcloud/trim_region.h"
 
 namespace lamina::engine {
 
@@ -10,31 +14,54 @@ PatchFront::PatchFront(const Model& model) {
   std::size_t count = 0;
   for (const Surface& surface : model.surfaces) {
     const NurbsSurface& nurbs = surface.nurbs;
-    sources_.push_back(
-        {BezierSpans(nurbs.knots_u, nurbs.degree_u), BezierSpans(nurbs.knots_v, nurbs.degree_v), nurbs.net});
-    count += sources_.back().u.count() * sources_.back().v.count();
+    Source source{BezierSpans(nurbs.knots_u, nurbs.degree_u),
+                  BezierSpans(nurbs.knots_v, nurbs.degree_v),
+                  nurbs.net,
+                  {},
+                  {},
+                  nullptr};
+    if (!surface.trim.empty()) {
+      source.trim = std::make_shared<TrimRegion>(surface, static_cast<std::uint32_t>(sources_.size()));
+      source.breaks_u = break_points(nurbs.knots_u, nurbs.degree_u);
+      source.breaks_v = break_points(nurbs.knots_v, nurbs.degree_v);
+      regions_.push_back(source.trim);
+    }
+    count += source.u.count() * source.v.count();
+    sources_.push_back(std::move(source));
   }
   spans_.reserve(count);
-  std::vector<Vector4> points;
-  for (std::size_t s = 0; s < sources_.size(); ++s) {
-    for (std::size_t u = 0; u < sources_[s].u.count(); ++u) {
-      for (std::size_t v = 0; v < sources_[s].v.count(); ++v) {
-        Span span{0.0, 0.0, static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(u),
-                  static_cast<std::uint32_t>(v)};
-        cut(span, points);
-        span.z_min = std::numeric_limits<double>::infinity();
-        span.z_max = -span.z_min;
-        for (const Vector4& point : points) {
-          const double z = point.z() / point.w();
-          span.z_min = std::min(span.z_min, z);
-          span.z_max = std::max(span.z_max, z);
-        }
-        spans_.push_back(span);
-      }
-    }
-  }
+  for (std::uint32_t s = 0; s < sources_.size(); ++s) add_spans(s);
   std::stable_sort(spans_.begin(), spans_.end(),
                    [](const Span& a, const Span& b) { return a.z_min < b.z_min; });
+}
+
+void PatchFront::add_spans(std::uint32_t surface) {
+  const Source& source = sources_[surface];
+  if (source.trim != nullptr && source.trim->level()) return;  // its loops are its face
+  std::vector<Vector4> points;
+  for (std::uint32_t u = 0; u < source.u.count(); ++u) {
+    for (std::uint32_t v = 0; v < source.v.count(); ++v) {
+      Span span{std::numeric_limits<double>::infinity(),
+                -std::numeric_limits<double>::infinity(),
+                surface,
+                u,
+                v,
+                false};
+      if (source.trim != nullptr) {
+        const TrimPlace place = source.trim->place_of({source.breaks_u[u], source.breaks_v[v]},
+                                                      {source.breaks_u[u + 1], source.breaks_v[v + 1]});
+        if (place == TrimPlace::kOutside) continue;
+        span.trimmed = place == TrimPlace::kCut;
+      }
+      cut(span, points);
+      for (const Vector4& point : points) {
+        const double z = point.z() / point.w();
+        span.z_min = std::min(span.z_min, z);
+        span.z_max = std::max(span.z_max, z);
+      }
+      spans_.push_back(span);
+    }
+  }
 }
 
 void PatchFront::advance(double z, double reach) {
@@ -44,11 +71,24 @@ void PatchFront::advance(double z, double reach) {
     const Span& span = spans_[next_];
     if (span.z_max < z - reach) continue;  // between two planes: never met
     const Source& source = sources_[span.surface];
-    auto patch = std::make_shared<FrontPatch>(
-        FrontPatch{source.u.degree(), source.v.degree(), span.surface, span.z_min, span.z_max, {}});
+    auto patch = std::make_shared<FrontPatch>();
+    patch->degree_u = source.u.degree();
+    patch->degree_v = source.v.degree();
+    patch->surface = span.surface;
+    patch->z_min = span.z_min;
+    patch->z_max = span.z_max;
+    if (span.trimmed) {
+      patch->low = {source.breaks_u[span.u], source.breaks_v[span.v]};
+      patch->high = {source.breaks_u[span.u + 1], source.breaks_v[span.v + 1]};
+      patch->trim = source.trim;
+    }
     cut(span, patch->points);
     state_.patches.push_back(std::move(patch));
     ++state_.added;
+  }
+  state_.regions.clear();
+  for (const auto& region : regions_) {
+    if (region->z_min() <= z + reach && region->z_max() >= z - reach) state_.regions.push_back(region);
   }
 }
 

@@ -32,6 +32,9 @@ class PatchFront {
     BezierSpans u;
     BezierSpans v;
     ControlNet net;
+    std::vector<double> breaks_u;
+    std::vector<double> breaks_v;
+    std::shared_ptr<const TrimRegion> trim;  ///< null: the whole surface
   };
   struct Span {
     double z_min;
@@ -39,11 +42,14 @@ class PatchFront {
     std::uint32_t surface;
     std::uint32_t u;
     std::uint32_t v;
+    bool trimmed;  ///< trim curves cut it
   };
 
+  void add_spans(std::uint32_t surface);
   void cut(const Span& span, std::vector<Vector4>& points);
 
   std::vector<Source> sources_;
+  std::vector<std::shared_ptr<const TrimRegion>> regions_;
   std::vector<Span> spans_;
   FrontState state_;
   std::vector<Vector4> half_cut_;

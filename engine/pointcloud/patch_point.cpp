@@ -100,6 +100,7 @@ CrossingPoint crossing_on_line(const FrontPatch& patch, double z, const LineCros
     along += basis.derivative[k] * blend.value[k];
     across += basis.value[k] * blend.across[k];
   }
+  result.node.parameters = parameters_on(line.held, line.at, result.parameter);
   const double w = point.w();
   result.node.position = point.head<2>() / w;
   // Quotient rule; the common factor 1 / w does not turn the tangent.

@@ -15,6 +15,11 @@ inline Direction other(Direction direction) {
   return direction == Direction::kU ? Direction::kV : Direction::kU;
 }
 
+/// (u, v) where one is held and the other is free.
+inline Vector2 parameters_on(Direction held, double at, double free) {
+  return held == Direction::kU ? Vector2(at, free) : Vector2(free, at);
+}
+
 /// Values of the degree + 1 Bernstein polynomials at t and their derivatives (The NURBS Book, A1.3 and
 /// equation 1.9).
 struct BernsteinPair {

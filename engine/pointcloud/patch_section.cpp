@@ -348,7 +348,8 @@ void PatchSection::bisect_edge(Direction held, double at, double from, const Edg
   const double middle = 0.5 * (from + to);
   const EdgePoint point = point_on_line(*patch_, held, at, middle);
   bisect_edge(held, at, from, start, middle, point, forced - 1, depth + 1);
-  section_->nodes.push_back({point.position, sign * point.derivative.normalized()});
+  section_->nodes.push_back(
+      {point.position, sign * point.derivative.normalized(), parameters_on(held, at, middle)});
   bisect_edge(held, at, middle, point, to, end, forced - 1, depth + 1);
 }
 
@@ -359,9 +360,10 @@ SectionArc PatchSection::edge_arc(Direction held, double at, double from, double
   const int degree = held == Direction::kU ? patch_->degree_v : patch_->degree_u;
   arc.upright = std::max(start.normal_z, end.normal_z) < kUpright;
   const double sign = to > from ? 1.0 : -1.0;
-  section_->nodes.push_back({start.position, sign * start.derivative.normalized()});
+  section_->nodes.push_back(
+      {start.position, sign * start.derivative.normalized(), parameters_on(held, at, from)});
   bisect_edge(held, at, from, start, to, end, degree > 1 ? 1 : 0, 0);
-  section_->nodes.push_back({end.position, sign * end.derivative.normalized()});
+  section_->nodes.push_back({end.position, sign * end.derivative.normalized(), parameters_on(held, at, to)});
   finish_arc(arc);
   return arc;
 }
@@ -416,7 +418,7 @@ void PatchSection::emit_flat(const Rectangle& r) {
   Box2 box;
   for (std::size_t k = section_->flat_rims[first].first; k < section_->nodes.size(); ++k)
     box.extend(section_->nodes[k].position);
-  section_->flats.push_back({static_cast<std::uint32_t>(first), 4, box.sizes().maxCoeff()});
+  section_->flats.push_back({static_cast<std::uint32_t>(first), 4, box.sizes().maxCoeff(), false});
 }
 
 }  // namespace lamina::engine

@@ -12,6 +12,7 @@ namespace lamina::engine {
 struct SectionNode {
   Vector2 position;
   Vector2 tangent;  ///< unit tangent of the section in the arc's direction; zero where the surface has none
+  Vector2 parameters = Vector2::Zero();  ///< (u, v) of the patch, each 0 to 1
 };
 
 /// On which side of an in-plane edge the patch lies that the edge belongs to.
@@ -42,6 +43,7 @@ struct FlatPiece {
   std::uint32_t first_arc = 0;
   std::uint32_t arc_count = 0;
   double size = 0.0;  ///< larger side, mm
+  bool hole = false;  ///< what its outline encloses is not there
 };
 
 /// All that one plane and the patches have in common, unordered.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/import/read_model.h"
+#include "engine/model_bounds.h"
 #include "engine/slicer.h"
 #include "tools/cli/contours_csv.h"
 #include "tools/cli/contours_json.h"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "engine/import/read_model.h"
+#include "engine/model_bounds.h"
 #include "engine/nurbs/bezier.h"
 #include "engine/slicer.h"
 #include "tools/cli/json.h"

@@ -1,5 +1,6 @@
 #include "tools/cli/placement.h"
 
+#include "engine/model_bounds.h"
 #include "engine/slicer.h"
 #include "profiles/value.h"
 #include "tools/cli/failure.h"

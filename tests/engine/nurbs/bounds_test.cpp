@@ -1,3 +1,4 @@
+#include "engine/model_bounds.h"
 #include "engine/nurbs/bounds.h"
 
 #include <random>

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/import/read_model.h"
+#include "engine/model_bounds.h"
 #include "engine/slicer.h"
 #include "engine/slicing_planes.h"
 #include "tests/engine/slicing/sliced_layers.h"

@@ -1,0 +1,333 @@
+#include "engine/pointcloud/trim_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace lamina::engine {
+namespace {
+
+constexpr double kUpright = 0.02;
+constexpr int kMostRootSteps = 80;
+constexpr int kDeepestBisection = 16;
+/// How far inside its trim curve a surface is looked at, in parts of the domain.
+constexpr double kBeside = 1e-3;
+
+Vector2 on_curve(const NurbsCurve& curve, double t) {
+  return evaluate(curve, t).head<2>();
+}
+
+Vector3 on_surface(const TrimRegion& region, const Vector2& parameters) {
+  return evaluate(region.surface(), parameters.x(), parameters.y());
+}
+
+/// The section's direction at a point of the surface, the outward normal on its right; zero where it has
+/// none.
+Vector2 section_tangent(const TrimRegion& region, const Vector2& parameters) {
+  const SurfaceDerivatives d = evaluate_derivatives(region.surface(), parameters.x(), parameters.y());
+  const Vector2 tangent = d.du.head<2>() * d.dv.z() - d.dv.head<2>() * d.du.z();
+  const double length = tangent.norm();
+  return length > 1e-9 * d.du.norm() * d.dv.norm() ? Vector2(tangent / length) : Vector2(Vector2::Zero());
+}
+
+/// Where the lifted trim curve passes the plane between two of its parameters; nothing where it does not.
+/// Bisection with secant steps (Illinois; Dowell and Jarratt, 1971).
+bool find_root(const TrimRegion& region, const NurbsCurve& curve, double low, double high, double z,
+               double& root) {
+  const auto height = [&](double t) { return on_surface(region, on_curve(curve, t)).z() - z; };
+  double f_low = height(low);
+  double f_high = height(high);
+  if (f_low == 0.0 || f_high == 0.0) {
+    root = f_low == 0.0 ? low : high;
+    return true;
+  }
+  if ((f_low > 0.0) == (f_high > 0.0)) return false;
+  for (int step = 0; step < kMostRootSteps; ++step) {
+    double t = (low * f_high - high * f_low) / (f_high - f_low);
+    if (!(t > low && t < high)) t = 0.5 * (low + high);
+    const double f = height(t);
+    root = t;
+    if (f == 0.0 || high - low <= 1e-15 * (std::abs(low) + std::abs(high))) return true;
+    if ((f > 0.0) == (f_high > 0.0)) {
+      high = t;
+      f_high = f;
+      f_low *= 0.5;
+    } else {
+      low = t;
+      f_low = f;
+      f_high *= 0.5;
+    }
+    if (std::abs(f) < 1e-12) return true;
+  }
+  return true;
+}
+
+class ArcTrimmer {
+ public:
+  ArcTrimmer(Section& section, const FrontPatch& patch, double z)
+      : section_(section), patch_(patch), region_(*patch.trim), z_(z) {}
+
+  void trim(const SectionArc& arc, const std::vector<SectionNode>& nodes) {
+    std::vector<Cut> cuts;
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+      for (const TrimCrossing& crossing :
+           region_.crossings(global(nodes[k].parameters), global(nodes[k + 1].parameters)))
+        cuts.push_back({k, crossing});
+    }
+    Cut from{0, {}};
+    bool at_start = true;
+    for (std::size_t c = 0; c <= cuts.size(); ++c) {
+      const bool at_end = c == cuts.size();
+      const Cut to = at_end ? Cut{nodes.size() - 1, {}} : cuts[c];
+      if (region_.contains(middle_of(nodes, from, to))) emit(arc, nodes, from, at_start, to, at_end);
+      from = to;
+      at_start = false;
+    }
+  }
+
+ private:
+  /// A place on the arc: on the chord after node k.
+  struct Cut {
+    std::size_t k;
+    TrimCrossing crossing;
+
+    double place() const { return static_cast<double>(k) + crossing.along; }
+  };
+
+  Vector2 global(const Vector2& local) const {
+    return patch_.low + local.cwiseProduct(patch_.high - patch_.low);
+  }
+
+  Vector2 parameters_at(const std::vector<SectionNode>& nodes, double place) const {
+    const auto k = std::min(static_cast<std::size_t>(place), nodes.size() - 2);
+    const double s = place - static_cast<double>(k);
+    return global((1.0 - s) * nodes[k].parameters + s * nodes[k + 1].parameters);
+  }
+
+  Vector2 middle_of(const std::vector<SectionNode>& nodes, const Cut& from, const Cut& to) const {
+    return parameters_at(nodes, 0.5 * (from.place() + to.place()));
+  }
+
+  /// The node where the arc meets the trim curve.
+  SectionNode node_at(const std::vector<SectionNode>& nodes, const Cut& cut) const {
+    const double s = cut.crossing.along;
+    const SectionNode& a = nodes[cut.k];
+    const SectionNode& b = nodes[std::min(cut.k + 1, nodes.size() - 1)];
+    SectionNode node;
+    node.position = (1.0 - s) * a.position + s * b.position;
+    node.tangent = s < 0.5 ? a.tangent : b.tangent;
+    double t = 0.0;
+    if (cut.crossing.edge < region_.edges().size() &&
+        find_root(region_, region_.edges()[cut.crossing.edge], cut.crossing.low, cut.crossing.high, z_, t)) {
+      const Vector2 parameters = on_curve(region_.edges()[cut.crossing.edge], t);
+      const Vector2 exact = on_surface(region_, parameters).head<2>();
+      if ((exact - node.position).norm() <= (b.position - a.position).norm()) {
+        node.position = exact;
+        const Vector2 tangent = section_tangent(region_, parameters);
+        // Arcs of edges in the plane may run against it.
+        node.tangent = tangent.dot(node.tangent) < 0.0 ? Vector2(-tangent) : tangent;
+      }
+    }
+    return node;
+  }
+
+  void emit(const SectionArc& arc, const std::vector<SectionNode>& nodes, const Cut& from, bool at_start,
+            const Cut& to, bool at_end) {
+    SectionArc piece = arc;
+    piece.first = static_cast<std::uint32_t>(section_.nodes.size());
+    const auto add = [&](const SectionNode& node) {
+      const bool repeated =
+          section_.nodes.size() > piece.first && section_.nodes.back().position == node.position;
+      if (!repeated) section_.nodes.push_back(node);
+    };
+    add(at_start ? nodes.front() : node_at(nodes, from));
+    for (std::size_t k = at_start ? 1 : from.k + 1;
+         k < nodes.size() && (at_end ? k + 1 < nodes.size() : k <= to.k); ++k)
+      add(nodes[k]);
+    add(at_end ? nodes.back() : node_at(nodes, to));
+    piece.count = static_cast<std::uint32_t>(section_.nodes.size()) - piece.first;
+    if (piece.count < 2) {
+      section_.nodes.resize(piece.first);
+      return;
+    }
+    section_.arcs.push_back(piece);
+  }
+
+  Section& section_;
+  const FrontPatch& patch_;
+  const TrimRegion& region_;
+  double z_;
+};
+
+/// Whether all of an arc lies on one side of the surface's domain.
+bool on_border(const std::vector<SectionNode>& nodes, const FrontPatch& patch) {
+  const NurbsSurface& surface = patch.trim->surface();
+  const Vector2 low(surface.first_u(), surface.first_v());
+  const Vector2 high(surface.last_u(), surface.last_v());
+  const auto all = [&](int axis, double local, double global, double domain) {
+    return global == domain && std::all_of(nodes.begin(), nodes.end(), [&](const SectionNode& node) {
+             return node.parameters[axis] == local;
+           });
+  };
+  return all(0, 0.0, patch.low.x(), low.x()) || all(0, 1.0, patch.high.x(), high.x()) ||
+         all(1, 0.0, patch.low.y(), low.y()) || all(1, 1.0, patch.high.y(), high.y());
+}
+
+/// Nodes along a lifted trim curve, chords within tolerance.
+class EdgeTracer {
+ public:
+  EdgeTracer(const TrimRegion& region, std::uint32_t edge, double tolerance)
+      : region_(region), edge_(edge), tolerance_(tolerance) {}
+
+  std::vector<SectionNode> nodes() const {
+    const std::vector<EdgeSample>& samples = region_.samples()[edge_];
+    std::vector<SectionNode> result{{samples.front().position.head<2>(), Vector2::Zero(), Vector2::Zero()}};
+    for (std::size_t k = 1; k < samples.size(); ++k) halve(samples[k - 1], samples[k], 0, result);
+    set_tangents(result);
+    return result;
+  }
+
+ private:
+  void halve(const EdgeSample& from, const EdgeSample& to, int depth,
+             std::vector<SectionNode>& result) const {
+    const double t = 0.5 * (from.t + to.t);
+    const Vector2 parameters = on_curve(region_.edges()[edge_], t);
+    const EdgeSample middle{t, parameters, on_surface(region_, parameters)};
+    const Vector2 chord = (to.position - from.position).head<2>();
+    const Vector2 off = (middle.position - 0.5 * (from.position + to.position)).head<2>();
+    const bool near = off.norm() <= 0.5 * tolerance_ || chord.norm() <= tolerance_;
+    if (depth == kDeepestBisection || near) {
+      result.push_back({to.position.head<2>(), Vector2::Zero(), Vector2::Zero()});
+      return;
+    }
+    halve(from, middle, depth + 1, result);
+    halve(middle, to, depth + 1, result);
+  }
+
+  /// From the neighbours, by the circle through three nodes; at the ends by reflection on the chord.
+  static void set_tangents(std::vector<SectionNode>& nodes) {
+    const std::size_t count = nodes.size();
+    if (count < 2) return;
+    for (std::size_t k = 1; k + 1 < count; ++k) {
+      const Vector2 before = nodes[k].position - nodes[k - 1].position;
+      const Vector2 after = nodes[k + 1].position - nodes[k].position;
+      const double weight_before = 1.0 / std::max(before.squaredNorm(), 1e-300);
+      const double weight_after = 1.0 / std::max(after.squaredNorm(), 1e-300);
+      nodes[k].tangent = (weight_before * before + weight_after * after).normalized();
+    }
+    const auto reflected = [](const Vector2& tangent, const Vector2& chord) {
+      const Vector2 along = chord.normalized();
+      return Vector2(2.0 * tangent.dot(along) * along - tangent);
+    };
+    const Vector2 first = nodes[1].position - nodes[0].position;
+    const Vector2 last = nodes[count - 1].position - nodes[count - 2].position;
+    nodes.front().tangent = count == 2 ? Vector2(first.normalized()) : reflected(nodes[1].tangent, first);
+    nodes.back().tangent =
+        count == 2 ? Vector2(last.normalized()) : reflected(nodes[count - 2].tangent, last);
+  }
+
+  const TrimRegion& region_;
+  std::uint32_t edge_;
+  double tolerance_;
+};
+
+void append_arc(Section& section, const std::vector<SectionNode>& nodes, SectionArc arc,
+                std::vector<SectionArc>& arcs) {
+  arc.first = static_cast<std::uint32_t>(section.nodes.size());
+  arc.count = static_cast<std::uint32_t>(nodes.size());
+  section.nodes.insert(section.nodes.end(), nodes.begin(), nodes.end());
+  arcs.push_back(arc);
+}
+
+bool in_plane(const std::vector<EdgeSample>& samples, double z) {
+  return std::all_of(samples.begin(), samples.end(), [&](const EdgeSample& sample) {
+    return std::abs(sample.position.z() - z) <= kModelTolerance;
+  });
+}
+
+/// A curve in the plane as the edge of what lies inside of it.
+void add_edge(Section& section, const TrimRegion& region, std::uint32_t edge, double z,
+              double chord_tolerance) {
+  const std::vector<EdgeSample>& samples = region.samples()[edge];
+  const std::size_t k = samples.size() / 2;
+  const Vector2 along = samples[k].parameters - samples[k - 1].parameters;
+  const NurbsSurface& surface = region.surface();
+  const Vector2 size(surface.last_u() - surface.first_u(), surface.last_v() - surface.first_v());
+  const Vector2 middle = 0.5 * (samples[k].parameters + samples[k - 1].parameters);
+  const double length = along.norm();
+  if (length == 0.0) return;
+  Vector2 inwards = Vector2(-along.y(), along.x()) / length * kBeside * size.minCoeff();
+  if (!region.contains(middle + inwards)) inwards = -inwards;
+  const double height = on_surface(region, middle + inwards).z() - z;
+  const SurfaceDerivatives d = evaluate_derivatives(surface, middle.x(), middle.y());
+  const Vector3 normal = d.du.cross(d.dv);
+  const bool upright = std::abs(normal.z()) < kUpright * normal.norm();
+  append_arc(section, EdgeTracer(region, edge, chord_tolerance).nodes(),
+             {0, 0, region.number(), height > 0.0 ? ArcKind::kEdgeAbove : ArcKind::kEdgeBelow, upright},
+             section.arcs);
+}
+
+/// A level surface in the plane: each loop a piece, a clockwise one a hole.
+void add_level_face(Section& section, const TrimRegion& region, double chord_tolerance) {
+  for (std::size_t loop = 0; loop < region.loops().size(); ++loop) {
+    FlatPiece piece;
+    piece.first_arc = static_cast<std::uint32_t>(section.flat_rims.size());
+    piece.hole = region.turning(loop) < 0.0;
+    Box2 box;
+    for (std::uint32_t e = region.loops()[loop].first; e < region.loops()[loop].second; ++e) {
+      const std::vector<SectionNode> nodes = EdgeTracer(region, e, chord_tolerance).nodes();
+      for (const SectionNode& node : nodes) box.extend(node.position);
+      append_arc(section, nodes, {0, 0, region.number(), ArcKind::kFlatRim, false}, section.flat_rims);
+    }
+    piece.arc_count = static_cast<std::uint32_t>(section.flat_rims.size()) - piece.first_arc;
+    piece.size = box.sizes().maxCoeff();
+    section.flats.push_back(piece);
+  }
+}
+
+}  // namespace
+
+SectionMark mark_of(const Section& section) {
+  return {section.nodes.size(), section.arcs.size(), section.flat_rims.size(), section.flats.size(),
+          section.touches.size()};
+}
+
+void trim_section(Section& section, const SectionMark& mark, const FrontPatch& patch, double z) {
+  const auto since = [](auto& all, std::size_t first) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    std::remove_reference_t<decltype(all)> taken(begin, all.end());
+    all.erase(begin, all.end());
+    return taken;
+  };
+  // Level pieces inside a surface that is not level itself have their rims as edges of the patches beside.
+  section.flats.resize(mark.flats);
+  section.flat_rims.resize(mark.flat_rims);
+  const std::vector<SectionArc> arcs = since(section.arcs, mark.arcs);
+  const std::vector<SectionNode> nodes = since(section.nodes, mark.nodes);
+  section.touches.resize(mark.touches);
+  ArcTrimmer trimmer(section, patch, z);
+  for (const SectionArc& arc : arcs) {
+    const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(arc.first - mark.nodes);
+    const std::vector<SectionNode> own(begin, begin + arc.count);
+    if (arc.kind != ArcKind::kCrossing && on_border(own, patch)) continue;
+    trimmer.trim(arc, own);
+  }
+}
+
+void add_trim_edges(Section& section, const TrimRegion& region, double z, double chord_tolerance) {
+  if (region.level()) {
+    if (std::abs(region.z_min() - z) <= kModelTolerance) add_level_face(section, region, chord_tolerance);
+    return;
+  }
+  for (std::uint32_t e = 0; e < region.edges().size(); ++e) {
+    const std::vector<EdgeSample>& samples = region.samples()[e];
+    if (in_plane(samples, z)) {
+      add_edge(section, region, e, z, chord_tolerance);
+    } else if (std::abs(samples.front().position.z() - z) <= kModelTolerance) {
+      section.touches.push_back({samples.front().position.head<2>(), false});
+    }
+  }
+}
+
+}  // namespace lamina::engine
