@@ -1,6 +1,7 @@
 #include "engine/import/read_model.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -10,6 +11,10 @@
 #include "engine/import/gzip.h"
 #include "engine/import/iges/read_iges.h"
 #include "engine/import/import_error.h"
+#include "engine/import/obj/read_obj.h"
+#include "engine/import/step/read_step.h"
+#include "engine/import/stl/read_stl.h"
+#include "engine/import/threemf/read_3mf.h"
 
 namespace lamina::engine {
 namespace {
@@ -37,14 +42,48 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-/// What the content looks like, whatever the name says; empty where that is unknown.
-std::string_view format_by_content(std::string_view bytes) {
-  if (looks_like_iges(bytes)) return "IGES";
-  if (bytes.substr(0, 12) == "ISO-10303-21") return "STEP";
-  if (bytes.substr(0, 2) == "PK") return "3MF";
-  if (bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 5) == "ply\r\n") return "PLY";
-  if (bytes.substr(0, 6) == "solid ") return "STL";
+bool has_prefix(std::string_view bytes, std::string_view prefix) {
+  return bytes.substr(0, prefix.size()) == prefix;
+}
+
+/// A format that can be read.
+struct Format {
+  std::string_view extensions;  ///< blank-separated, lower case
+  bool (*is_content)(std::string_view bytes);
+  ImportResult (*read)(std::string_view bytes, const std::string& file, std::size_t max_bytes);
+};
+
+/// In the order in which contents are asked: the ones that cannot be mistaken first.
+constexpr auto kFormats = std::to_array<Format>({
+    {".3mf", looks_like_zip, read_3mf},
+    {".igs .iges", looks_like_iges,
+     [](std::string_view bytes, const std::string& file, std::size_t) { return read_iges(bytes, file); }},
+    {".step .stp", looks_like_step,
+     [](std::string_view bytes, const std::string& file, std::size_t) { return read_step(bytes, file); }},
+    {".brep .brp", looks_like_brep,
+     [](std::string_view bytes, const std::string& file, std::size_t) { return read_brep(bytes, file); }},
+    {".stl", looks_like_stl,
+     [](std::string_view bytes, const std::string& file, std::size_t) { return read_stl(bytes, file); }},
+    {".obj", looks_like_obj,
+     [](std::string_view bytes, const std::string& file, std::size_t) { return read_obj(bytes, file); }},
+});
+
+/// What the content is where it is a known format that cannot be read; empty where it is not.
+std::string_view known_but_unreadable(std::string_view bytes) {
+  if (has_prefix(bytes, "ply\n") || has_prefix(bytes, "ply\r")) return "PLY";
   return {};
+}
+
+const Format* find_format(std::string_view bytes, const std::string& extension) {
+  for (const Format& format : kFormats) {
+    if (format.is_content(bytes)) return &format;
+  }
+  if (!known_but_unreadable(bytes).empty() || extension.size() < 2) return nullptr;
+  for (const Format& format : kFormats) {
+    const std::string list = std::string(format.extensions) + " ";
+    if (list.find(extension + " ") != std::string::npos) return &format;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -58,16 +97,14 @@ ImportResult read_model(const std::filesystem::path& path, std::size_t max_bytes
     if (lower_case(plain_name.extension().string()) == ".gz") plain_name = plain_name.stem();
   }
   if (bytes.empty()) throw ImportError({.file = file}, "is empty");
-  const std::string_view found = format_by_content(bytes);
-  const std::string extension = lower_case(plain_name.extension().string());
-  const bool named_iges = extension == ".igs" || extension == ".iges";
-  if (found != "IGES" && (!named_iges || !found.empty())) {
-    const std::string_view guess = found.empty() ? "no model format that lamina knows" : found;
-    throw ImportError({.file = file},
-                      fmt::format("holds {}; only IGES (.igs, .iges, also with .gz) can be read", guess),
-                      "export the model as IGES with untrimmed surfaces");
+  const Format* format = find_format(bytes, lower_case(plain_name.extension().string()));
+  if (format == nullptr) {
+    const std::string_view known = known_but_unreadable(bytes);
+    const std::string_view guess = known.empty() ? "no model format that lamina knows" : known;
+    throw ImportError({.file = file}, fmt::format("holds {}", guess),
+                      "IGES, STEP, STL, OBJ and 3MF can be read, also with .gz");
   }
-  ImportResult result = read_iges(bytes, file);
+  ImportResult result = format->read(bytes, file, max_bytes);
   result.model.name = plain_name.stem().string();
   return result;
 }

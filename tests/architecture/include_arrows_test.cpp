@@ -100,9 +100,10 @@ TEST_CASE("every include follows an allowed arrow and is written from the root",
   for (const Include& include : includes) {
     if (!include.quoted) continue;
     INFO(include.from << " includes " << include.target);
-    // Only measurements and tests know the dense method that they compare with.
+    // Only measurements and tests know the dense method and the solids that they compare with.
     const bool yardstick =
-        starts_with(include.from, "tools/bench/") && starts_with(include.target, "tests/reference/");
+        starts_with(include.from, "tools/bench/") && (starts_with(include.target, "tests/reference/") ||
+                                                      starts_with(include.target, "tests/support/"));
     const bool ours =
         yardstick || std::find(kFolders.begin(), kFolders.end(), folder_of(include.target)) != kFolders.end();
     CHECK(ours);

@@ -195,7 +195,14 @@ void ParameterRecord::require(std::size_t count, std::string_view name) const {
 }
 
 std::size_t ParameterRecord::pointer(std::string_view name) {
-  const int value = integer(name);
+  const std::size_t value = pointer_or_none(name);
+  if (value == 0) fail(fmt::format("the {} is missing", name));
+  return value;
+}
+
+std::size_t ParameterRecord::pointer_or_none(std::string_view name) {
+  const int value = integer_or(0, name);
+  if (value == 0) return 0;
   const std::size_t last = 2 * file_.entries.size();
   if (value <= 0 || value % 2 == 0 || static_cast<std::size_t>(value) > last) {
     fail(fmt::format("the {} is {}, and must be an odd directory line from 1 to {}", name, value, last));

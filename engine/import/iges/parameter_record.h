@@ -39,6 +39,9 @@ class ParameterRecord {
   /// Directory line of another entity of the file.
   std::size_t pointer(std::string_view name);
 
+  /// The same where there may be none: 0 then.
+  std::size_t pointer_or_none(std::string_view name);
+
   /// Passes over `count` parameters, strings too.
   void skip(std::size_t count);
 

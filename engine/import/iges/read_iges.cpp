@@ -1,6 +1,7 @@
 #include "engine/import/iges/read_iges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -22,31 +23,58 @@ namespace {
 /// Coordinates beyond this (a thousand kilometres) are no model.
 constexpr double kLargestCoordinate = 1e9;
 
-/// Surfaces that belong to an entity which is not read (the base of a trimmed surface, the parts of a
-/// subfigure): they must not be sliced on their own, whatever their status says.
-std::vector<bool> find_owned(const IgesFile& file, EntityReader& reader, ToleranceLog& log) {
-  std::vector<bool> owned(file.entries.size(), false);
+/// What other entities say about entities.
+struct References {
+  std::vector<bool> is_owned;    ///< the base of a trimmed surface, a part of a solid or a subfigure
+  std::vector<bool> is_grouped;  ///< named by a group (402)
+};
+
+/// Entities that belong to another one must not be sliced on their own, whatever their status says.
+References find_references(const IgesFile& file, EntityReader& reader, ToleranceLog& log) {
+  constexpr int kGroupType = 402;
+  constexpr std::array<int, 4> kGroupForms{1, 7, 14, 15};
+  constexpr OwnedParameters kGroupMembers{.first = 2, .counted_by = 1};
+  References references{std::vector<bool>(file.entries.size(), false),
+                        std::vector<bool>(file.entries.size(), false)};
   for (std::size_t i = 0; i < file.entries.size(); ++i) {
-    const EntityType* type = find_entity_type(file.entries[i].type);
-    if (type == nullptr || type->owned.first == 0) continue;
+    const DirectoryEntry& entry = file.entries[i];
+    const bool is_group = entry.type == kGroupType &&
+                          std::find(kGroupForms.begin(), kGroupForms.end(), entry.form) != kGroupForms.end();
+    const EntityType* type = find_entity_type(entry.type);
+    if (type == nullptr || (type->owned.first == 0 && !is_group)) continue;
+    const OwnedParameters& owned = is_group ? kGroupMembers : type->owned;
+    std::vector<bool>& named = is_group ? references.is_grouped : references.is_owned;
     ParameterRecord record(file, i, log);
-    std::size_t count = 1;
-    std::size_t position = 1;
-    if (type->owned.counted_by != 0) {
-      record.skip(type->owned.counted_by - 1);
-      count = record.count(0, "number of parts");
-      position = type->owned.counted_by + 1;
+    std::size_t position = 1;  // of the next parameter
+    const auto skip_to = [&](std::size_t wanted) {
+      record.skip(wanted - position);
+      position = wanted + 1;
+    };
+    if (owned.alone != 0) {
+      skip_to(owned.alone);
+      named[record.pointer("part") / 2] = true;
     }
-    record.skip(type->owned.first - position);
-    for (std::size_t k = 0; k < count; ++k) owned[record.pointer("part") / 2] = true;
+    std::size_t count = 1;
+    if (owned.counted_by != 0) {
+      skip_to(owned.counted_by);
+      count = record.count(0, "number of parts");
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      skip_to(owned.first + k * owned.stride);
+      const std::size_t pointer = record.pointer_or_none("part");
+      if (pointer != 0) named[pointer / 2] = true;
+    }
     reader.spend(record, record.lines_read());
   }
-  return owned;
+  return references;
 }
 
 /// Why an entity that can be read as a surface is none of the model by itself; empty where it is.
-std::string_view reason_to_skip(const DirectoryEntry& entry, bool is_owned) {
-  if (entry.is_physically_dependent || is_owned) return "part of another entity that is not read";
+std::string_view reason_to_skip(const DirectoryEntry& entry, bool is_owned, bool is_grouped, bool is_face) {
+  if (is_owned) return "part of another entity that is left out";
+  // Groups call their members dependent; so do some writers with faces that nothing owns.
+  if (entry.is_physically_dependent && !is_grouped && !is_face)
+    return "part of another entity that is left out";
   if (entry.is_blanked) return "blanked";
   if (entry.use != EntityUse::kGeometry) return "not of geometry use (entity use flag)";
   return {};
@@ -55,9 +83,12 @@ std::string_view reason_to_skip(const DirectoryEntry& entry, bool is_owned) {
 /// Why an entity that is no surface, and that no surface was made of, is left out.
 std::string_view reason_to_skip_other(const DirectoryEntry& entry, const EntityType* type) {
   constexpr int kTransformType = 124;
-  if (entry.type == kTransformType) return "not used by a surface";
-  if (type == nullptr || type->read_curve == nullptr) return "not supported";
-  if (entry.is_physically_dependent) return "part of another entity that is not read";
+  constexpr int kDirectionType = 123;
+  constexpr int kExternalType = 416;
+  if (entry.type == kTransformType || entry.type == kDirectionType) return "not used by a surface";
+  if (entry.type == kExternalType) return "in another file, which is not read";
+  if (type != nullptr && type->read_unbounded != nullptr) return "has no bounds";
+  if (type == nullptr || type->read_curve == nullptr) return "no shape";
   return "not used by a surface";
 }
 
@@ -129,13 +160,13 @@ void check_anything_made(const ImportResult& result, const IgesFile& file) {
   std::string left_out;
   for (const SkippedEntities& skipped : result.report.skipped) {
     const EntityType* type = find_entity_type(skipped.type);
-    if (type == nullptr || type->read_surface == nullptr) continue;
+    if (type == nullptr || !type->is_shape()) continue;
     left_out += fmt::format("; {} x {} left out: {}", skipped.count, skipped.type, skipped.reason);
   }
   throw ImportError(
       {.file = file.name},
       fmt::format("nothing to slice: the file holds {}{}", list_of(result.report.entities), left_out),
-      "surfaces of type 114, 118, 120 and 128 can be sliced; export untrimmed NURBS surfaces");
+      "export surfaces, trimmed surfaces or solids");
 }
 
 }  // namespace
@@ -175,28 +206,31 @@ ImportResult read_iges(std::string_view bytes, const std::string& name) {
   Tally made;
   Tally skipped;
   EntityReader reader(file, log);
-  const std::vector<bool> owned = find_owned(file, reader, log);
+  const References references = find_references(file, reader, log);
   for (std::size_t i = 0; i < file.entries.size(); ++i) {
     const DirectoryEntry& entry = file.entries[i];
     entities.add(entry.type, {}, directory_line(i));
     const EntityType* type = find_entity_type(entry.type);
-    if (type == nullptr || type->read_surface == nullptr) continue;
-    const std::string_view reason = reason_to_skip(entry, owned[i]);
-    if (!reason.empty()) {
-      skipped.add(entry.type, reason, directory_line(i));
-      continue;
+    if (type == nullptr || !type->is_shape()) continue;
+    const bool is_face = type->read_faces != nullptr;
+    if (!reason_to_skip(entry, references.is_owned[i], references.is_grouped[i], is_face).empty()) continue;
+    for (TrimmedPatch& patch : reader.faces(i)) {
+      result.model.surfaces.push_back({in_millimetres(std::move(patch.nurbs), factor, file, i),
+                                       std::move(patch.trim), entry.type,
+                                       static_cast<int>(directory_line(i))});
+      made.add(entry.type, {}, directory_line(i));
     }
-    result.model.surfaces.push_back({in_millimetres(reader.surface(i), factor, file, i),
-                                     {},
-                                     entry.type,
-                                     static_cast<int>(directory_line(i))});
-    made.add(entry.type, {}, directory_line(i));
   }
   for (std::size_t i = 0; i < file.entries.size(); ++i) {
-    const EntityType* type = find_entity_type(file.entries[i].type);
-    const bool is_surface = type != nullptr && type->read_surface != nullptr;
-    if (is_surface || reader.was_read(i)) continue;
-    skipped.add(file.entries[i].type, reason_to_skip_other(file.entries[i], type), directory_line(i));
+    if (reader.was_read(i)) continue;
+    const DirectoryEntry& entry = file.entries[i];
+    const EntityType* type = find_entity_type(entry.type);
+    const std::string_view reason =
+        type != nullptr && type->is_shape()
+            ? reason_to_skip(entry, references.is_owned[i], references.is_grouped[i],
+                             type->read_faces != nullptr)
+            : reason_to_skip_other(entry, type);
+    skipped.add(entry.type, reason, directory_line(i));
   }
   report.entities = entities.counts();
   report.surfaces = made.counts();

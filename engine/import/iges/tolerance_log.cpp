@@ -57,6 +57,16 @@ std::string_view description(Tolerance kind) {
       return "transformation matrix that is no rotation, used as it is";
     case Tolerance::kRuledByParameter:
       return "rails of a ruled surface joined at equal parameter, not arc length";
+    case Tolerance::kTrimGap:
+      return "gap in a trim loop, bridged";
+    case Tolerance::kTrimCurvesDiffer:
+      return "trim curves in parameters and in space differ, these in space used";
+    case Tolerance::kTrimOffSurface:
+      return "trim curve off its surface, projected";
+    case Tolerance::kTrimLost:
+      return "face whose trim loops bound no area, left out";
+    case Tolerance::kOffsetApproximated:
+      return "offset approximated";
     case Tolerance::kCount:
       break;
   }

@@ -38,6 +38,11 @@ enum class Tolerance {
   kReversedPiece,
   kUnusualMatrix,
   kRuledByParameter,
+  kTrimGap,
+  kTrimCurvesDiffer,
+  kTrimOffSurface,
+  kTrimLost,
+  kOffsetApproximated,
   kCount
 };
 

@@ -40,8 +40,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// Rows of IGES files made of entities of the dissertation's table 6.1 only (and of 122, whose surfaces are
-/// left out).
+/// Rows of IGES files whose surfaces are all untrimmed.
 std::vector<ManifestRow> readable_rows() {
   const std::string readable[] = {"100", "102", "104", "110", "112", "114", "116",
                                   "118", "120", "122", "124", "126", "128"};
@@ -185,13 +184,13 @@ std::vector<const NurbsSurface*> candidates(const Model& model, const Vector3& d
   return list;
 }
 
-/// Number of surfaces that a file of these entities must give; 122 cannot be read yet.
+/// Number of surfaces that a file of these entities must give.
 std::size_t expected_surfaces(const std::string& entities) {
   std::size_t count = 0;
   std::istringstream stream(entities);
   for (std::string entity; stream >> entity;) {
     const std::string type = entity.substr(0, entity.find(':'));
-    if (type == "114" || type == "118" || type == "120" || type == "128") {
+    if (type == "114" || type == "118" || type == "120" || type == "122" || type == "128") {
       count += std::stoul(entity.substr(entity.find(':') + 1));
     }
   }
@@ -236,8 +235,6 @@ TEST_CASE("corpus: surfaces, boxes, volumes and areas are those of the manifest"
       CHECK(-extent(candidates(model, -up), -up) == Approx(row.low[axis]).margin(1e-4));
     }
 
-    const bool has_missing_surfaces = row.entities.find("122:") != std::string::npos;
-    if (has_missing_surfaces) continue;
     const int cuts = model.surfaces.size() > 100 ? 1 : 6;
     std::vector<Integrals> parts;
     for (const Surface& surface : model.surfaces) parts.push_back(integrate(surface.nurbs, cuts));
@@ -270,35 +267,6 @@ TEST_CASE("corpus: surfaces, boxes, volumes and areas are those of the manifest"
     }
     CHECK(found);
   }
-}
-
-TEST_CASE("corpus: files of other entities are refused with a list of these, or read in part and reported") {
-  if (!corpus_present()) {
-    WARN("the model corpus is missing: skipped");
-    return;
-  }
-  const std::vector<std::pair<std::string, std::string>> refused{
-      {"entities/trim144_pcurves.igs", "2 x 144 trimmed surface"},
-      {"entities/bounded143.igs", "2 x 143 bounded surface"},
-      {"entities/subfigure_308_408.igs", "2 x 408 subfigure instance"},
-      {"parts/part_bracket_186.igs", "1 x 186 manifold solid B-rep"},
-      {"real/bearing.iges", "213 x 144 trimmed surface"},
-      {"real/DTMB-5415_bulbous_bow.iges", "1 x 510 face"},
-  };
-  for (const auto& [file, expected] : refused) {
-    INFO(file);
-    try {
-      read_model(corpus_file(file));
-      FAIL_CHECK("no error");
-    } catch (const ImportError& error) {
-      CHECK(std::string(error.what()).find(expected) != std::string::npos);
-    }
-  }
-  const ImportResult plane = read_model(corpus_file("entities/plane108_118.igs"));
-  CHECK(plane.model.surfaces.size() == 6);
-  const auto& skipped = plane.report.skipped;
-  CHECK(std::any_of(skipped.begin(), skipped.end(),
-                    [](const SkippedEntities& entry) { return entry.type == 108; }));
 }
 
 TEST_CASE("corpus: the report of a file tells what its header says") {

@@ -32,8 +32,8 @@ TEST_CASE("status: only visible, independent geometry is sliced") {
                                 {"        ", ""},
                                 {"       0", ""},
                                 {"01000000", "blanked"},
-                                {"00010000", "part of another entity that is not read"},
-                                {"00030000", "part of another entity that is not read"},
+                                {"00010000", "part of another entity that is left out"},
+                                {"00030000", "part of another entity that is left out"},
                                 {"00000100", "not of geometry use (entity use flag)"},
                                 {"00000500", "not of geometry use (entity use flag)"}};
   for (const Case& example : cases) {
@@ -51,16 +51,27 @@ TEST_CASE("status: only visible, independent geometry is sliced") {
 
 TEST_CASE("the base of a trimmed surface is never sliced as if it were whole") {
   // Some writers do not mark it as dependent.
-  const std::vector<IgesEntity> entities{{128, kSquare}, {144, "1,0,0,"}, {128, kSquare},
-                                         {143, "0,5,0"}, {128, kSquare},  {308, "0,4Hpart,1,9"},
+  const std::vector<IgesEntity> entities{{128, kSquare}, {144, "1,0,0,", 0, 0, "01000000"},
+                                         {128, kSquare}, {143, "0,5,0", 0, 0, "01000000"},
+                                         {128, kSquare}, {308, "0,4Hpart,1,9"},
                                          {128, kSquare}};
   const ImportResult result = read_iges(iges_text(entities), "part.igs");
   REQUIRE(result.model.surfaces.size() == 1);
   CHECK(result.model.surfaces[0].directory_line == 13);
   CHECK(skipped(result.report) ==
-        "3 x 128 part of another entity that is not read D1\n1 x 143 not supported D7\n1 x 144 not supported "
-        "D3\n"
-        "1 x 308 not supported D11\n");
+        "3 x 128 part of another entity that is left out D1\n1 x 143 blanked D7\n1 x 144 blanked D3\n"
+        "1 x 308 no shape D11\n");
+}
+
+TEST_CASE("members of a group are sliced, and so are faces that nothing owns") {
+  const std::vector<IgesEntity> entities{{128, kSquare, 0, 0, "00010000"},
+                                         {402, "1,1", 7},
+                                         {128, kSquare, 0, 0, "00010000"},
+                                         {144, "5,0,0,", 0, 0, "00010000"}};
+  const ImportResult result = read_iges(iges_text(entities), "part.igs");
+  REQUIRE(result.model.surfaces.size() == 2);
+  CHECK(result.model.surfaces[0].directory_line == 1);
+  CHECK(result.model.surfaces[1].directory_line == 7);
 }
 
 TEST_CASE("every entity is counted, and either used or listed with a reason") {
@@ -82,7 +93,7 @@ TEST_CASE("every entity is counted, and either used or listed with a reason") {
   CHECK(skipped(report) ==
         "1 x 110 not used by a surface D11\n1 x 116 not used by a surface D13\n1 x 124 not used by a surface "
         "D3\n"
-        "1 x 402 not supported D17\n1 x 9999 not supported D15\n");
+        "1 x 402 no shape D17\n1 x 9999 no shape D15\n");
 }
 
 TEST_CASE("a parameter line count that is too small is made up for by the lines' own pointers") {

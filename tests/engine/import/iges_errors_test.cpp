@@ -143,11 +143,13 @@ TEST_CASE("errors in lines and sections") {
 }
 
 TEST_CASE("a file with nothing to slice says what it held") {
-  const std::string message = error_of(
-      iges_text({{110, "0.,0.,0.,1.,0.,0."}, {110, "0.,0.,0.,1.,0.,0."}, {144, "7,0,0"}, {128, kSquare}}));
+  const std::string message = error_of(iges_text({{110, "0.,0.,0.,1.,0.,0."},
+                                                  {110, "0.,0.,0.,1.,0.,0."},
+                                                  {144, "7,0,0", 0, 0, "01000000"},
+                                                  {128, kSquare}}));
   CHECK(message.find(
             "nothing to slice: the file holds 2 x 110 line, 1 x 128 rational B-spline surface, 1 x 144 "
-            "trimmed surface; 1 x 128 left out: part of another entity that is not read") !=
+            "trimmed surface; 1 x 128 left out: part of another entity that is left out") !=
         std::string::npos);
 }
 

@@ -10,7 +10,9 @@
 #include <zlib.h>
 
 #include "engine/import/gzip.h"
+#include "tests/engine/import/mesh_shapes.h"
 #include "tests/engine/import/reading.h"
+#include "tests/engine/import/zip_writer.h"
 
 using namespace lamina::engine;
 using namespace lamina::tests;
@@ -86,17 +88,44 @@ TEST_CASE("plain and gzip files, whatever they are called, give the same model")
   }
 }
 
-TEST_CASE("files that are no IGES are refused with what they are") {
+TEST_CASE("content says what a file is, before its name does") {
+  const Folder folder;
+  const std::string stl = binary_stl(tetrahedron(), "solid");
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string package = zip_of(
+      {{"3D/3dmodel.model",
+        "<model><resources><object id='1'><mesh><vertices><vertex x='0' y='0' z='0'/><vertex x='1' y='0' "
+        "z='0'/><vertex x='0' y='1' z='0'/></vertices><triangles><triangle v1='0' v2='1' "
+        "v3='2'/></triangles></mesh></object></resources><build><item objectid='1'/></build></model>"}});
+  for (const auto& [name, bytes, format] : std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"part.stl", stl, "STL (binary)"},
+           {"part.igs", stl, "STL (binary)"},
+           {"part.STL.gz", gzipped(stl), "STL (binary)"},
+           {"part.obj", obj, "OBJ"},
+           {"part", obj, "OBJ"},
+           {"part.3mf", package, "3MF"},
+           {"part.stl", package, "3MF"}}) {
+    INFO(name << " holding " << format);
+    const ImportResult result = read_model(folder.write(name, bytes));
+    CHECK(result.model.name == "part");
+    CHECK(result.report.format == format);
+    CHECK(result.model.meshes.size() == 1);
+  }
+}
+
+TEST_CASE("files of no known format are refused with what they are") {
   const Folder folder;
   CHECK(error_reading(folder.path() / "none.igs").find("none.igs: no such file") == 0);
   CHECK(error_reading(folder.path()).find("is a folder") != std::string::npos);
   CHECK(error_reading(folder.write("empty.igs", "")) == "empty.igs: is empty");
-  CHECK(error_reading(folder.write("part.igs", "ISO-10303-21;\nHEADER;"))
-            .find("part.igs: holds STEP; only IGES") == 0);
-  CHECK(error_reading(folder.write("part.stl", "solid part\nfacet")).find("part.stl: holds STL") == 0);
   CHECK(error_reading(folder.write("part.xyz", "1 2 3\n")).find("no model format that lamina knows") !=
         std::string::npos);
   CHECK(error_reading(folder.write("part.igs", "1 2 3\n")).find("part.igs: file line 1") == 0);
+  CHECK(error_reading(folder.write("part.stl", "1 2 3\n")).find("part.stl: is no STL file") == 0);
+  CHECK(error_reading(folder.write("part.obj", "1 2 3\n")).find("part.obj: nothing to slice") == 0);
+  CHECK(
+      error_reading(folder.write("part.3mf", "1 2 3\n")).find("part.3mf: the ZIP archive cannot be opened") ==
+      0);
 }
 
 TEST_CASE("gzip: several members, damage, and a bound on the size") {
