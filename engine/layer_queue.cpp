@@ -14,7 +14,7 @@
 namespace lamina::engine {
 namespace {
 
-constexpr std::size_t kLayersAThread = 2;
+constexpr std::size_t kLayersAThread = 4;
 
 int thread_count(int asked) {
   return asked > 0 ? asked : oneapi::tbb::info::default_concurrency();

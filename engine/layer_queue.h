@@ -11,7 +11,7 @@
 namespace lamina::engine {
 
 /// Layers being made, first in, first out: with one thread each one when it is taken out, with several at
-/// most two a thread at the same time. The one place that knows of threads (oneTBB).
+/// most four a thread at the same time. The one place that knows of threads (oneTBB).
 class LayerQueue {
  public:
   explicit LayerQueue(const SliceOptions& options);

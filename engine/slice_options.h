@@ -12,7 +12,7 @@ struct SliceOptions {
   double chord_part = 0.05;  ///< greatest distance of chords between nodes from the section, part of epsilon
   double fit_part = 0.05;    ///< greatest distance of the fitted curves from the section, part of epsilon
   int greatest_degree = 5;   ///< of the fitted curves, 2 to 5
-  double longest_bridge = 0.5;  ///< gaps up to this are closed and reported, mm
+  double longest_bridge = 2.0;  ///< gaps up to this are closed and reported, mm
   Containment containment = Containment::kNominal;
   bool unite_all = false;       ///< every chain goes through the arrangement, whether it meets another or not
   int threads = 1;              ///< that make layers at the same time; 0: one a core

@@ -23,7 +23,7 @@ struct SliceError : std::runtime_error {
 
 /// Slices a model plane by plane at a cost that follows the length of the contours. The plane rises through
 /// the global list of Bezier patches; what it meets is cut into arcs of exact nodes, linked, united where
-/// contours meet, and made into curves. With several threads up to two layers a thread are made ahead of the
+/// contours meet, and made into curves. With several threads up to four layers a thread are made ahead of the
 /// caller, always in order; the layers are the same, byte for byte, for any number of threads. Holds the
 /// patches near the plane and the buffers of the layers in hand.
 class Slicer {

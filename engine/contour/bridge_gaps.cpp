@@ -12,6 +12,9 @@ namespace lamina::engine {
 namespace {
 
 constexpr std::uint32_t kNone = PointIndex::kNone;
+/// Ends are led to the middle of another chain over this many epsilon at most: a fin that points at a wall
+/// from afar is none of its business.
+constexpr double kLongestLead = 10.0;
 
 /// End 2c is the front of chain c, end 2c + 1 its back.
 const ContourNode& end_node(const std::vector<NodeChain>& chains, std::uint32_t end) {
@@ -27,9 +30,11 @@ double chain_length(const NodeChain& chain) {
   return length;
 }
 
-void mark_joint(ContourNode& node, bool exact) {
-  node.corner = true;
-  node.exact = node.exact && exact;
+/// Marks both ends of a bridge; it runs straight across, whatever the tangents of what it joins.
+void mark_bridge(ContourNode& from, ContourNode& to) {
+  from.corner = to.corner = true;
+  from.exact = to.exact = false;
+  from.tangent_out = to.tangent_in = (to.position - from.position).normalized();
 }
 
 /// Appends `tail` to `chain`, whose ends lie `gap` apart.
@@ -42,12 +47,11 @@ void join(NodeChain& chain, const NodeChain& tail, double joined) {
     last.tangent_out = next.tangent_out;
     last.corner = is_corner(last.tangent_in, last.tangent_out);
     first = 1;
-  } else {
-    mark_joint(last, false);
   }
+  const std::size_t joint = chain.nodes.size();
   chain.nodes.insert(chain.nodes.end(), tail.nodes.begin() + static_cast<std::ptrdiff_t>(first),
                      tail.nodes.end());
-  if (first == 0) mark_joint(chain.nodes[chain.nodes.size() - tail.nodes.size()], false);
+  if (first == 0) mark_bridge(chain.nodes[joint - 1], chain.nodes[joint]);
 }
 
 void close(NodeChain& chain, double joined) {
@@ -59,8 +63,7 @@ void close(NodeChain& chain, double joined) {
     first.corner = is_corner(first.tangent_in, first.tangent_out);
     chain.nodes.pop_back();
   } else {
-    mark_joint(last, false);
-    mark_joint(first, false);
+    mark_bridge(last, first);
   }
 }
 
@@ -70,8 +73,25 @@ struct Pair {
   std::uint32_t b;
 };
 
-/// Pairs of free ends, the nearest first, each end once.
-std::vector<std::uint32_t> nearest_partners(const std::vector<NodeChain>& chains, double reach) {
+/// Unit direction in which a chain would go on beyond its end; zero when unknown.
+Vector2 onwards(const std::vector<NodeChain>& chains, std::uint32_t end) {
+  const NodeChain& chain = chains[end / 2];
+  const Vector2 tangent =
+      end % 2 == 0 ? Vector2(-chain.nodes.front().tangent_out) : chain.nodes.back().tangent_in;
+  if (tangent.squaredNorm() > 0.0 || chain.nodes.size() < 2) return tangent;
+  const ContourNode& next = end % 2 == 0 ? chain.nodes[1] : chain.nodes[chain.nodes.size() - 2];
+  return (end_node(chains, end).position - next.position).normalized();
+}
+
+/// Whether two chains go towards each other across their gap. Walls that overshoot a corner go away from it.
+bool face_each_other(const std::vector<NodeChain>& chains, std::uint32_t a, std::uint32_t b) {
+  const Vector2 across = end_node(chains, b).position - end_node(chains, a).position;
+  return onwards(chains, a).dot(across) >= 0.0 && onwards(chains, b).dot(across) <= 0.0;
+}
+
+/// Pairs of free ends, the nearest first, each end once; those farther apart than `near` only where they face
+/// each other.
+std::vector<std::uint32_t> nearest_partners(const std::vector<NodeChain>& chains, double near, double reach) {
   std::vector<std::uint32_t> partner(2 * chains.size(), kNone);
   PointIndex index(reach);
   std::vector<std::uint32_t> ends;
@@ -86,6 +106,7 @@ std::vector<std::uint32_t> nearest_partners(const std::vector<NodeChain>& chains
       if (other <= k) return;
       const double distance = (index.point(other) - index.point(k)).norm();
       if (distance > reach) return;
+      if (distance > near && !face_each_other(chains, ends[k], ends[other])) return;
       // A short piece is not bent back into itself.
       if (ends[k] / 2 == ends[other] / 2 && chain_length(chains[ends[k] / 2]) < 3.0 * distance) return;
       pairs.push_back({distance, ends[k], ends[other]});
@@ -170,13 +191,12 @@ void lead_to_chains(std::vector<NodeChain>& chains, double reach, LayerReport& r
     if (best >= reach || best == 0.0) continue;
     ContourNode node;
     node.position = target;
-    mark_joint(node, false);
     NodeChain& chain = chains[end / 2];
     if (end % 2 == 0) {
-      mark_joint(chain.nodes.front(), false);
+      mark_bridge(node, chain.nodes.front());
       chain.nodes.insert(chain.nodes.begin(), node);
     } else {
-      mark_joint(chain.nodes.back(), false);
+      mark_bridge(chain.nodes.back(), node);
       chain.nodes.push_back(node);
     }
     report.bridged_gaps.push_back({place, target});
@@ -215,7 +235,7 @@ void report_open(const std::vector<NodeChain>& chains, LayerReport& report) {
 std::vector<NodeChain> bridge_gaps(std::vector<NodeChain> chains, const BridgeOptions& options,
                                    LayerReport& report) {
   const auto bridge = [&](double reach) {
-    const std::vector<std::uint32_t> partner = nearest_partners(chains, reach);
+    const std::vector<std::uint32_t> partner = nearest_partners(chains, options.epsilon, reach);
     report_bridges(chains, partner, options.joined, report);
     chains = joined_chains(std::move(chains), partner, options.joined);
   };
@@ -225,7 +245,7 @@ std::vector<NodeChain> bridge_gaps(std::vector<NodeChain> chains, const BridgeOp
   lead_to_chains(chains, options.epsilon, report);
   bridge(options.longest_bridge);
   if (open_count(chains) == 0) return chains;
-  lead_to_chains(chains, options.longest_bridge, report);
+  lead_to_chains(chains, std::min(options.longest_bridge, kLongestLead * options.epsilon), report);
   report_open(chains, report);
   return chains;
 }

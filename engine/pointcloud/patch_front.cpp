@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "engine/geometry/bspline_basis.h"
@@ -31,16 +32,29 @@ PatchFront::PatchFront(const Model& model) {
   }
   spans_.reserve(count);
   for (std::uint32_t s = 0; s < sources_.size(); ++s) add_spans(s);
-  std::stable_sort(spans_.begin(), spans_.end(),
-                   [](const Span& a, const Span& b) { return a.z_min < b.z_min; });
+  std::sort(spans_.begin(), spans_.end(), [](const Span& a, const Span& b) {
+    return std::tie(a.z_min, a.surface, a.u, a.v) < std::tie(b.z_min, b.surface, b.u, b.v);
+  });
 }
 
 void PatchFront::add_spans(std::uint32_t surface) {
   const Source& source = sources_[surface];
   if (source.trim != nullptr && source.trim->level()) return;  // its loops are its face
-  std::vector<Vector4> points;
-  for (std::uint32_t u = 0; u < source.u.count(); ++u) {
-    for (std::uint32_t v = 0; v < source.v.count(); ++v) {
+  const auto order_u = static_cast<std::size_t>(source.u.degree()) + 1;
+  const auto order_v = static_cast<std::size_t>(source.v.degree()) + 1;
+  // Only heights and weights are asked for here, and a row cut along v serves every span along u.
+  std::vector<Vector2> rows(source.net.count_u * order_v);
+  for (std::uint32_t v = 0; v < source.v.count(); ++v) {
+    const double* weights_v = source.v.weights(v);
+    for (std::size_t i = 0; i < source.net.count_u; ++i) {
+      const Vector4* net = &source.net.at(i, source.v.first(v));
+      for (std::size_t l = 0; l < order_v; ++l) {
+        Vector2 sum = weights_v[l * order_v] * net[0].tail<2>();
+        for (std::size_t j = 1; j < order_v; ++j) sum += weights_v[l * order_v + j] * net[j].tail<2>();
+        rows[i * order_v + l] = sum;
+      }
+    }
+    for (std::uint32_t u = 0; u < source.u.count(); ++u) {
       Span span{std::numeric_limits<double>::infinity(),
                 -std::numeric_limits<double>::infinity(),
                 surface,
@@ -53,11 +67,16 @@ void PatchFront::add_spans(std::uint32_t surface) {
         if (place == TrimPlace::kOutside) continue;
         span.trimmed = place == TrimPlace::kCut;
       }
-      cut(span, points);
-      for (const Vector4& point : points) {
-        const double z = point.z() / point.w();
-        span.z_min = std::min(span.z_min, z);
-        span.z_max = std::max(span.z_max, z);
+      const double* weights_u = source.u.weights(u);
+      const Vector2* row = &rows[source.u.first(u) * order_v];
+      for (std::size_t k = 0; k < order_u; ++k) {
+        for (std::size_t l = 0; l < order_v; ++l) {
+          Vector2 sum = weights_u[k * order_u] * row[l];
+          for (std::size_t i = 1; i < order_u; ++i) sum += weights_u[k * order_u + i] * row[i * order_v + l];
+          const double z = sum.x() / sum.y();
+          span.z_min = std::min(span.z_min, z);
+          span.z_max = std::max(span.z_max, z);
+        }
       }
       spans_.push_back(span);
     }
