@@ -3,47 +3,37 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <queue>
 
 #include <Eigen/Dense>
+
+#include "tools/bench/patch_evaluation.h"
 
 namespace lamina::tools {
 namespace {
 
-constexpr int kCoarseIntervals = 2;
 constexpr int kMostSteps = 20;
 constexpr double kNegligibleStep = 1e-10;
-constexpr std::ptrdiff_t kMostBinsPerSide = 256;
+constexpr double kCertain = 1e-6;
+constexpr double kSmallestPart = 1e-5;  // mm
+constexpr int kMostParts = 20000;
 
-engine::NurbsSurface as_surface(const engine::BezierPatch& patch) {
-  const auto bezier_knots = [](int degree) {
-    engine::Knots knots(static_cast<std::size_t>(degree) + 1, 0.0);
-    knots.resize(2 * knots.size(), 1.0);
-    return knots;
-  };
-  return {patch.degree_u, patch.degree_v, bezier_knots(patch.degree_u), bezier_knots(patch.degree_v),
-          patch.net};
-}
-
-engine::Vector2 coarse_start(const engine::Vector3& point, const engine::NurbsSurface& patch) {
-  engine::Vector2 best(0.5, 0.5);
+engine::Vector2 coarse_start(const engine::Vector3& point, const CoarseGrid& coarse) {
+  std::size_t best = 0;
   double nearest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= kCoarseIntervals; ++i) {
-    for (int j = 0; j <= kCoarseIntervals; ++j) {
-      const engine::Vector2 uv(i / static_cast<double>(kCoarseIntervals),
-                               j / static_cast<double>(kCoarseIntervals));
-      const double squared = (engine::evaluate(patch, uv.x(), uv.y()) - point).squaredNorm();
-      if (squared < nearest) {
-        nearest = squared;
-        best = uv;
-      }
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    const double squared = (coarse[k] - point).squaredNorm();
+    if (squared < nearest) {
+      nearest = squared;
+      best = k;
     }
   }
-  return best;
+  return {0.5 * static_cast<double>(best / 3), 0.5 * static_cast<double>(best % 3)};
 }
 
 /// The step of Gauss and Newton on |S(u, v) - point|^2; at a side of the domain that the step would leave,
 /// only along it.
-engine::Vector2 projection_step(const engine::SurfaceDerivatives& at, const engine::Vector3& point,
+engine::Vector2 projection_step(const PatchPoint& at, const engine::Vector3& point,
                                 const engine::Vector2& uv) {
   const engine::Vector3 rest = point - at.point;
   Eigen::Matrix2d normal;
@@ -62,15 +52,20 @@ engine::Vector2 projection_step(const engine::SurfaceDerivatives& at, const engi
   return normal.inverse() * gradient;
 }
 
-double distance_to_box(const engine::Vector3& point, const engine::Box3& box) {
-  return box.exteriorDistance(point);
-}
-
 }  // namespace
 
-double distance_to_patch(const engine::Vector3& point, const engine::NurbsSurface& patch) {
-  engine::Vector2 uv = coarse_start(point, patch);
-  engine::SurfaceDerivatives at = engine::evaluate_derivatives(patch, uv.x(), uv.y());
+CoarseGrid coarse_grid(const engine::BezierPatch& patch) {
+  CoarseGrid grid;
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    grid[k] = engine::evaluate(patch, 0.5 * static_cast<double>(k / 3), 0.5 * static_cast<double>(k % 3));
+  }
+  return grid;
+}
+
+double distance_to_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
+                         const CoarseGrid& coarse) {
+  engine::Vector2 uv = coarse_start(point, coarse);
+  PatchPoint at = evaluate_with_derivatives(patch, uv.x(), uv.y());
   double best = (at.point - point).norm();
   for (int step = 0; step < kMostSteps; ++step) {
     engine::Vector2 move = projection_step(at, point, uv);
@@ -79,7 +74,7 @@ double distance_to_patch(const engine::Vector3& point, const engine::NurbsSurfac
     for (int halving = 0; halving < 8 && !nearer; ++halving, move *= 0.5) {
       const engine::Vector2 next = (uv + move).cwiseMax(0.0).cwiseMin(1.0);
       if ((next - uv).cwiseAbs().maxCoeff() < kNegligibleStep) return best;
-      const engine::SurfaceDerivatives tried = engine::evaluate_derivatives(patch, next.x(), next.y());
+      const PatchPoint tried = evaluate_with_derivatives(patch, next.x(), next.y());
       const double distance = (tried.point - point).norm();
       if (distance >= best) continue;
       nearer = true;
@@ -92,75 +87,72 @@ double distance_to_patch(const engine::Vector3& point, const engine::NurbsSurfac
   return best;
 }
 
-SurfaceDistance::SurfaceDistance(const std::vector<engine::BezierPatch>& patches) {
-  candidates_.reserve(patches.size());
-  for (const engine::BezierPatch& patch : patches) {
-    candidates_.push_back({as_surface(patch), engine::control_box(patch.net)});
+double certain_distance_to_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
+                                 double best) {
+  struct Part {
+    double to_box;
+    engine::BezierPatch patch;
+    bool operator<(const Part& other) const { return to_box > other.to_box; }
+  };
+  const auto part = [&](engine::BezierPatch piece) {
+    const double to_box = engine::control_box(piece.net).exteriorDistance(point);
+    return Part{to_box, std::move(piece)};
+  };
+  std::priority_queue<Part> parts;
+  parts.push(part(patch));
+  for (int count = 0; count < kMostParts && !parts.empty(); ++count) {
+    const Part nearest = parts.top();
+    parts.pop();
+    if (nearest.to_box >= best - kCertain) break;
+    best = std::min(best, distance_to_patch(point, nearest.patch, coarse_grid(nearest.patch)));
+    if (engine::control_box(nearest.patch.net).diagonal().norm() < kSmallestPart) continue;
+    const auto [low, high] = engine::halves_in_u(nearest.patch);
+    for (const engine::BezierPatch& half : {low, high}) {
+      auto [first, second] = engine::halves_in_v(half);
+      parts.push(part(std::move(first)));
+      parts.push(part(std::move(second)));
+    }
+  }
+  return best;
+}
+
+SurfaceDistance::SurfaceDistance(const engine::Model& model) {
+  for (const engine::Surface& surface : model.surfaces) {
+    for (engine::BezierPatch& patch : engine::bezier_patches(surface.nurbs)) {
+      const engine::Box3 box = engine::control_box(patch.net);
+      const CoarseGrid coarse = coarse_grid(patch);
+      candidates_.push_back({std::move(patch), box, coarse});
+    }
   }
 }
 
 void SurfaceDistance::select_plane(double z, double reach) {
-  std::vector<std::size_t> selected;
-  selected_box_.setEmpty();
-  double side_sum = 0.0;
-  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+  selected_.clear();
+  std::vector<engine::Box2> boxes;
+  for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
     const engine::Box3& box = candidates_[k].box;
     if (box.min().z() > z + reach || box.max().z() < z - reach) continue;
-    selected.push_back(k);
-    selected_box_.extend(engine::Vector2(box.min().head<2>()));
-    selected_box_.extend(engine::Vector2(box.max().head<2>()));
-    side_sum += box.sizes().head<2>().maxCoeff();
+    selected_.push_back(k);
+    boxes.emplace_back(engine::Vector2(box.min().head<2>()), engine::Vector2(box.max().head<2>()));
   }
-  bins_.clear();
-  columns_ = rows_ = 0;
-  if (selected.empty()) return;
-  const double longest_side = std::max(selected_box_.sizes().maxCoeff(), 1e-9);
-  bin_size_ = std::max({side_sum / static_cast<double>(selected.size()), reach,
-                        longest_side / static_cast<double>(kMostBinsPerSide)});
-  columns_ = static_cast<std::ptrdiff_t>(selected_box_.sizes().x() / bin_size_) + 1;
-  rows_ = static_cast<std::ptrdiff_t>(selected_box_.sizes().y() / bin_size_) + 1;
-  bins_.resize(static_cast<std::size_t>(columns_ * rows_));
-  for (const std::size_t k : selected) {
-    const engine::Vector2 low = (candidates_[k].box.min().head<2>() - selected_box_.min()) / bin_size_;
-    const engine::Vector2 high = (candidates_[k].box.max().head<2>() - selected_box_.min()) / bin_size_;
-    for (auto y = static_cast<std::ptrdiff_t>(low.y()); y <= static_cast<std::ptrdiff_t>(high.y()); ++y) {
-      for (auto x = static_cast<std::ptrdiff_t>(low.x()); x <= static_cast<std::ptrdiff_t>(high.x()); ++x) {
-        bin(x, y).push_back(k);
-      }
-    }
-  }
+  bins_ = PlanarBins(std::move(boxes));
 }
 
-double SurfaceDistance::distance(const engine::Vector3& point) const {
-  double best = std::numeric_limits<double>::infinity();
-  if (bins_.empty()) return best;
-  const engine::Vector2 place = (point.head<2>() - selected_box_.min()) / bin_size_;
-  const auto home_x =
-      std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::floor(place.x())), 0, columns_ - 1);
-  const auto home_y =
-      std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::floor(place.y())), 0, rows_ - 1);
-  std::vector<std::pair<double, std::size_t>> near;
-  // Rings of bins around the point's own, until the ring is farther than what was found.
-  for (std::ptrdiff_t ring = 0; ring <= std::max(columns_, rows_); ++ring) {
-    if (static_cast<double>(ring - 1) * bin_size_ > best) break;
-    near.clear();
-    for (std::ptrdiff_t y = home_y - ring; y <= home_y + ring; ++y) {
-      for (std::ptrdiff_t x = home_x - ring; x <= home_x + ring; ++x) {
-        const bool on_ring = std::max(std::abs(x - home_x), std::abs(y - home_y)) == ring;
-        if (!on_ring || x < 0 || y < 0 || x >= columns_ || y >= rows_) continue;
-        for (const std::size_t k : bins_[static_cast<std::size_t>(y * columns_ + x)]) {
-          near.emplace_back(distance_to_box(point, candidates_[k].box), k);
-        }
-      }
-    }
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    for (const auto& [to_box, k] : near) {
-      if (to_box >= best) break;
-      best = std::min(best, distance_to_patch(point, candidates_[k].surface));
-    }
-  }
-  return best;
+double SurfaceDistance::distance(const engine::Vector3& point, const Trust& trust) const {
+  const double local = bins_.nearest(point.head<2>(), trust.enough, [&](std::uint32_t item, double best) {
+    const Candidate& candidate = candidates_[selected_[item]];
+    return candidate.box.exteriorDistance(point) >= best
+               ? best
+               : distance_to_patch(point, candidate.patch, candidate.coarse);
+  });
+  if (local <= trust.local) return local;
+  return bins_.nearest(point.head<2>(), trust.enough, [&](std::uint32_t item, double best) {
+    const Candidate& candidate = candidates_[selected_[item]];
+    const double bound = std::min(best, local);
+    return candidate.box.exteriorDistance(point) >= bound
+               ? bound
+               : certain_distance_to_patch(point, candidate.patch, bound);
+  });
 }
 
 }  // namespace lamina::tools

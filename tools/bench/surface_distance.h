@@ -1,47 +1,56 @@
 #pragma once
 
-#include <cstddef>
+#include <array>
+#include <cstdint>
 #include <vector>
 
+#include "engine/model.h"
 #include "engine/nurbs/bezier.h"
+#include "tools/bench/planar_bins.h"
 
 namespace lamina::tools {
 
-/// Distance from a point to a patch: the nearest of a coarse grid of points, then Gauss-Newton steps on the
-/// squared distance with the parameters kept inside the patch (The NURBS Book, section 6.1). An upper bound
-/// of the true distance; where Newton does not converge, the best point found counts, as in the dissertation
-/// (p. 165).
-double distance_to_patch(const engine::Vector3& point, const engine::NurbsSurface& patch);
+/// Points of a patch at u and v in {0, 1/2, 1}, v fastest.
+using CoarseGrid = std::array<engine::Vector3, 9>;
+CoarseGrid coarse_grid(const engine::BezierPatch& patch);
 
-/// Distances from points near one plane to a model that was cut into small patches.
+/// Distance from a point to a patch: the nearest point of the coarse grid, then Gauss-Newton steps on the
+/// squared distance with the parameters kept inside the patch (The NURBS Book, section 6.1). An upper bound
+/// of the true distance: it may end at a local minimum.
+double distance_to_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
+                         const CoarseGrid& coarse);
+
+/// The least of `best` and the distance to the patch, to 1e-6 mm: halves of the patch are searched, the
+/// nearest first, until no box of their nets can be nearer.
+double certain_distance_to_patch(const engine::Vector3& point, const engine::BezierPatch& patch, double best);
+
+/// Distances from points near one plane to a model's surfaces.
 class SurfaceDistance {
  public:
-  explicit SurfaceDistance(const std::vector<engine::BezierPatch>& patches);
+  explicit SurfaceDistance(const engine::Model& model);
 
-  /// Prepares for points at height z: the patches whose boxes come within `reach` of the plane, in bins over
-  /// x and y.
+  /// Prepares for points at height z: the patches whose boxes come within `reach` of the plane.
   void select_plane(double z, double reach);
 
-  /// Distance to the nearest patch of the selection, mm; infinite when the selection is empty. Patches are
-  /// tried by the distance of their boxes until no box can be nearer than what was found.
-  double distance(const engine::Vector3& point) const;
+  struct Trust {
+    double enough = 0.0;  ///< mm; the search ends as soon as a patch is that near
+    double local = 0.0;   ///< mm; up to this Newton's local minimum is taken, above it is made certain
+  };
+
+  /// Distance to the nearest patch of the selection, mm; infinite when the selection is empty. Up to
+  /// `trust.local` an upper bound of the true distance, above it the true one.
+  double distance(const engine::Vector3& point, const Trust& trust) const;
 
  private:
   struct Candidate {
-    engine::NurbsSurface surface;
+    engine::BezierPatch patch;
     engine::Box3 box;
+    CoarseGrid coarse;
   };
 
-  std::vector<std::size_t>& bin(std::ptrdiff_t x, std::ptrdiff_t y) {
-    return bins_[static_cast<std::size_t>(y * columns_ + x)];
-  }
-
   std::vector<Candidate> candidates_;
-  engine::Box2 selected_box_;
-  double bin_size_ = 1.0;
-  std::ptrdiff_t columns_ = 0;
-  std::ptrdiff_t rows_ = 0;
-  std::vector<std::vector<std::size_t>> bins_;  ///< candidates whose box overlaps the bin
+  std::vector<std::uint32_t> selected_;
+  PlanarBins bins_;
 };
 
 }  // namespace lamina::tools

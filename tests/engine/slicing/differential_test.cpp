@@ -1,10 +1,8 @@
-// The sparse engine against the dense one: number, kind and nesting of contours, and areas within what a half
-// cell allows.
+// The sparse engine against the dense one on the corpus: number, kind and nesting of contours, and areas
+// within what a half cell allows. Random solids are compared by tools/bench/differential.
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <random>
 
 #include <catch2/catch.hpp>
 
@@ -15,7 +13,6 @@
 #include "tests/engine/slicing/sliced_layers.h"
 #include "tests/reference/as_engine_layer.h"
 #include "tests/reference/reference_slicer.h"
-#include "tests/support/analytic_models.h"
 #include "tests/support/contour_measure.h"
 #include "tests/support/corpus.h"
 
@@ -26,9 +23,6 @@ using engine::Layer;
 using engine::Loop;
 using engine::Model;
 using engine::Vector2;
-using engine::Vector3;
-
-constexpr unsigned kSeed = 20;
 
 /// Where the engines may differ, and why.
 struct Comparison {
@@ -143,99 +137,6 @@ std::vector<engine::SlicePlane> planes_through(const Model& model, std::size_t c
     planes.push_back({z, z, z});
   }
   return planes;
-}
-
-class RandomSolids {
- public:
-  explicit RandomSolids(unsigned seed) : random_(seed) {}
-
-  Model next(int index) {
-    std::vector<Model> parts;
-    const int count = 1 + index % 3;
-    for (int k = 0; k < count; ++k) parts.push_back(posed(solid(index + k)));
-    Model model = united("random " + std::to_string(index), parts);
-    return model;
-  }
-
- private:
-  double number(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-
-  Model solid(int kind) {
-    switch (kind % 5) {
-      case 0:
-        return sphere(Vector3::Zero(), number(1.0, 3.0)).model;
-      case 1:
-        return box(Vector3::Zero(), {number(1.0, 4.0), number(1.0, 4.0), number(1.0, 4.0)}).model;
-      case 2:
-        return vase();
-      case 3:
-        return extrusion();
-      default:
-        return standing_torus(Vector3::Zero(), number(2.0, 3.0), number(0.5, 1.0)).model;
-    }
-  }
-
-  /// A cubic B-spline profile from axis to axis, turned once around.
-  Model vase() {
-    Profile profile;
-    profile.degree = 3;
-    profile.knots = {0, 0, 0, 0, 1, 2, 3, 4, 4, 4, 4};
-    for (int k = 0; k < 7; ++k) {
-      const bool end = k == 0 || k == 6;
-      profile.points.emplace_back(end ? 0.0 : number(0.8, 2.5), 0.6 * k, 1.0);
-    }
-    return model_of("vase", {revolved(profile, Vector3::Zero())});
-  }
-
-  /// A blob-shaped cubic outline, extruded, its ends closed by fans that shrink it to a point.
-  Model extrusion() {
-    constexpr int kSides = 8;
-    const double height = number(1.0, 3.0);
-    engine::NurbsSurface wall;
-    wall.degree_u = 3;
-    wall.degree_v = 1;
-    for (int k = 0; k < kSides + 7; ++k) wall.knots_u.push_back(k);
-    wall.knots_v = {0, 0, 1, 2, 3, 3};
-    wall.net.count_u = kSides + 3;
-    wall.net.count_v = 4;
-    std::vector<Vector2> outline;
-    for (int k = 0; k < kSides; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / kSides;
-      outline.emplace_back(number(1.0, 2.5) * Vector2(std::cos(angle), std::sin(angle)));
-    }
-    for (int k = 0; k < kSides + 3; ++k) {
-      const Vector2& p = outline[static_cast<std::size_t>(k % kSides)];
-      wall.net.points.emplace_back(0.0, 0.0, 0.0, 1.0);
-      wall.net.points.emplace_back(p.x(), p.y(), 0.0, 1.0);
-      wall.net.points.emplace_back(p.x(), p.y(), height, 1.0);
-      wall.net.points.emplace_back(0.0, 0.0, height, 1.0);
-    }
-    return model_of("extrusion", {wall});
-  }
-
-  Model posed(const Model& model) {
-    const Vector3 axis(number(-1, 1), number(-1, 1), number(-1, 1));
-    const Eigen::Affine3d pose = Eigen::Translation3d(number(-2, 2), number(-2, 2), number(-2, 2)) *
-                                 Eigen::AngleAxisd(number(0, 6.28), axis.normalized());
-    return engine::transformed(model, pose);
-  }
-
-  std::mt19937 random_;
-};
-
-TEST_CASE("random solids and unions: both engines see the same contours", "[slicing][differential]") {
-  INFO("seed " << kSeed);
-  RandomSolids solids(kSeed);
-  Comparison result;
-  for (int k = 0; k < 60; ++k) {
-    const Model model = solids.next(k);
-    compare(model, Boundary::kClosed, planes_through(model, 5), 0.05, result);
-  }
-  CAPTURE(result.layers, result.equal, result.met, result.below_resolution, result.spurs, result.slivers);
-  CHECK(result.unexplained == 0);
-  CHECK(result.equal >= result.layers * 9 / 10);
 }
 
 TEST_CASE("corpus: both engines see the same contours", "[slicing][differential]") {

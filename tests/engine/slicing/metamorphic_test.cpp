@@ -1,5 +1,6 @@
 // The same solid given in another way has the same contours: turned about z, moved by parts of a cell,
-// mirrored, scaled, its surfaces shuffled, with more knots, with u and v exchanged.
+// mirrored, scaled, its surfaces shuffled, with more knots, a higher degree, other parameters, with u and v
+// exchanged. Chains of exact nodes and fitted curves alike.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,9 @@
 #include <catch2/catch.hpp>
 
 #include "engine/import/read_model.h"
+#include "engine/nurbs/bezier.h"
 #include "engine/nurbs/knot_insertion.h"
+#include "engine/slicer.h"
 #include "tests/engine/slicing/sliced_layers.h"
 #include "tests/support/analytic_models.h"
 #include "tests/support/contour_measure.h"
@@ -25,8 +28,11 @@ using engine::Vector3;
 
 constexpr unsigned kSeed = 21;
 constexpr double kEpsilon = 0.02;
-/// Both chords and curve: each set of chords lies within a twentieth of epsilon of the section.
+/// Each set of chords lies within a twentieth of epsilon of the section.
 constexpr double kAllowed = 2.0 * 0.05 * kEpsilon + 1e-6;
+constexpr double kFlattened = 0.01 * kEpsilon;
+/// A fitted curve lies within another twentieth, and is flattened.
+constexpr double kAllowedCurves = 2.0 * (0.05 + 0.05) * kEpsilon + 2.0 * kFlattened + 1e-6;
 
 struct Subject {
   Model model;
@@ -48,23 +54,89 @@ std::vector<Subject> subjects() {
   return result;
 }
 
-void check_same(const LayerChains& chains, const LayerChains& expected, const Eigen::Affine2d& map) {
-  REQUIRE(chains.closed.size() == expected.closed.size());
-  CHECK(chains.open.size() == expected.open.size());
-  CHECK(chains.touch_curves.size() == expected.touch_curves.size());
-  CHECK(chains.touch_points.size() == expected.touch_points.size());
-  std::vector<Loop> moved = loops_of(expected);
-  for (Loop& loop : moved) {
+/// What the plane gives, before and after curves are fitted.
+struct Slice {
+  LayerChains chains;
+  engine::Layer layer;
+};
+
+Slice slice_at(const Model& model, double z) {
+  engine::SliceOptions options;
+  options.epsilon = kEpsilon;
+  engine::Slicer slicer(model, {{z, z, z}}, options);
+  return {chains_at(model, z, kEpsilon), *slicer.next()};
+}
+
+std::vector<Loop> mapped(std::vector<Loop> loops, const Eigen::Affine2d& map) {
+  for (Loop& loop : loops) {
     for (Vector2& point : loop) point = map * point;
   }
-  const double scale = std::sqrt(std::abs(map.linear().determinant()));
-  CHECK(greatest_difference(loops_of(chains), moved) < kAllowed * std::max(1.0, scale));
+  return loops;
+}
+
+void check_same(const Slice& slice, const Slice& expected, const Eigen::Affine2d& map) {
+  REQUIRE(slice.chains.closed.size() == expected.chains.closed.size());
+  CHECK(slice.chains.open.size() == expected.chains.open.size());
+  CHECK(slice.chains.touch_curves.size() == expected.chains.touch_curves.size());
+  CHECK(slice.chains.touch_points.size() == expected.chains.touch_points.size());
+  const double scale = std::max(1.0, std::sqrt(std::abs(map.linear().determinant())));
+  CHECK(greatest_difference(loops_of(slice.chains), mapped(loops_of(expected.chains), map)) <
+        kAllowed * scale);
+  CHECK(kinds_of(slice.layer, kFlattened) == kinds_of(expected.layer, kFlattened));
+  CHECK(greatest_difference(closed_loops(slice.layer, kFlattened),
+                            mapped(closed_loops(expected.layer, kFlattened), map)) < kAllowedCurves * scale);
 }
 
 void check_transformed(const Subject& subject, const Eigen::Affine3d& map3, const Eigen::Affine2d& map2) {
-  const LayerChains expected = chains_at(subject.model, subject.z, kEpsilon);
   const double z = (map3 * Vector3(0, 0, subject.z)).z();
-  check_same(chains_at(engine::transformed(subject.model, map3), z, kEpsilon), expected, map2);
+  check_same(slice_at(engine::transformed(subject.model, map3), z), slice_at(subject.model, subject.z), map2);
+}
+
+/// The model as Bezier patches, each changed.
+template <typename Change>
+Model with_patches(const Model& model, Change change) {
+  Model result;
+  result.name = model.name;
+  for (const engine::Surface& surface : model.surfaces) {
+    for (engine::BezierPatch& patch : engine::bezier_patches(surface.nurbs)) {
+      change(patch);
+      const auto knots = [](int degree) {
+        engine::Knots ends(static_cast<std::size_t>(degree) + 1, 0.0);
+        ends.resize(2 * ends.size(), 1.0);
+        return ends;
+      };
+      result.surfaces.emplace_back();
+      result.surfaces.back().nurbs = {patch.degree_u, patch.degree_v, knots(patch.degree_u),
+                                      knots(patch.degree_v), std::move(patch.net)};
+    }
+  }
+  return result;
+}
+
+/// One degree more in u (The NURBS Book, equation 5.36, on homogeneous points).
+void raise_degree_in_u(engine::BezierPatch& patch) {
+  const int degree = patch.degree_u + 1;
+  engine::ControlNet net{patch.net.count_u + 1, patch.net.count_v, {}};
+  for (std::size_t i = 0; i < net.count_u; ++i) {
+    const double part = static_cast<double>(i) / degree;
+    for (std::size_t j = 0; j < net.count_v; ++j) {
+      engine::Vector4 point = engine::Vector4::Zero();
+      if (i > 0) point += part * patch.net.at(i - 1, j);
+      if (i < patch.net.count_u) point += (1.0 - part) * patch.net.at(i, j);
+      net.points.push_back(point);
+    }
+  }
+  patch.degree_u = degree;
+  patch.net = std::move(net);
+}
+
+/// A patch's parameters changed by rational linear functions: weights by powers of a factor each way.
+void reparametrise(engine::BezierPatch& patch) {
+  for (std::size_t i = 0; i < patch.net.count_u; ++i) {
+    for (std::size_t j = 0; j < patch.net.count_v; ++j) {
+      patch.net.at(i, j) *= std::pow(1.7, static_cast<double>(i)) * std::pow(0.6, static_cast<double>(j));
+    }
+  }
 }
 
 TEST_CASE("turned about z", "[slicing][metamorphic]") {
@@ -108,7 +180,7 @@ TEST_CASE("surfaces shuffled, u and v exchanged, more knots", "[slicing][metamor
   INFO("seed " << kSeed);
   std::mt19937 random(kSeed);
   for (const Subject& subject : subjects()) {
-    const LayerChains expected = chains_at(subject.model, subject.z, kEpsilon);
+    const Slice expected = slice_at(subject.model, subject.z);
     Model shuffled = subject.model;
     std::shuffle(shuffled.surfaces.begin(), shuffled.surfaces.end(), random);
     Model exchanged = subject.model;
@@ -123,7 +195,26 @@ TEST_CASE("surfaces shuffled, u and v exchanged, more knots", "[slicing][metamor
                                            {s.first_v() + part(random) * (s.last_v() - s.first_v())});
     }
     for (const Model& variant : {shuffled, exchanged, refined}) {
-      check_same(chains_at(variant, subject.z, kEpsilon), expected, Eigen::Affine2d::Identity());
+      check_same(slice_at(variant, subject.z), expected, Eigen::Affine2d::Identity());
+    }
+  }
+}
+
+TEST_CASE("degree raised, reparametrised", "[slicing][metamorphic]") {
+  for (const Subject& subject : subjects()) {
+    const Slice expected = slice_at(subject.model, subject.z);
+    const Model raised = with_patches(subject.model, [](engine::BezierPatch& patch) {
+      raise_degree_in_u(patch);
+      raise_degree_in_u(patch);
+    });
+    const Model reparametrised = with_patches(subject.model, reparametrise);
+    Model stretched = subject.model;
+    for (engine::Surface& surface : stretched.surfaces) {
+      for (double& knot : surface.nurbs.knots_u) knot = 3.7 * knot - 11.0;
+      for (double& knot : surface.nurbs.knots_v) knot = 0.01 * knot + 4.0;
+    }
+    for (const Model& variant : {raised, reparametrised, stretched}) {
+      check_same(slice_at(variant, subject.z), expected, Eigen::Affine2d::Identity());
     }
   }
 }

@@ -133,6 +133,7 @@ Model gapped_cylinder(double gap) {
 TEST_CASE("gaps are bridged and reported, up to the limit", "[slicing]") {
   engine::SliceOptions options;
   options.epsilon = 0.05;
+  options.longest_bridge = 0.5;
   for (const double gap : {0.004, 0.04, 0.3}) {
     const auto [chains, report] = reported_chains_at(gapped_cylinder(gap), 2.0, options);
     CAPTURE(gap);
@@ -154,7 +155,8 @@ TEST_CASE("gaps are bridged and reported, up to the limit", "[slicing]") {
   CHECK(std::abs(report.open_gaps.front().width() - 0.8) < 0.01);
 }
 
-TEST_CASE("an end that stops beside another chain is led to it across a gap wider than epsilon", "[slicing]") {
+TEST_CASE("an end that stops beside another chain is led to it across a gap wider than epsilon",
+          "[slicing]") {
   // The front wall overshoots both corners, by 2 mm; the side walls stop 0.3 mm short of it.
   const auto wall = [](const Vector2& from, const Vector2& to) {
     return bilinear({from.x(), from.y(), 0}, {to.x(), to.y(), 0}, {from.x(), from.y(), 5},
@@ -170,6 +172,27 @@ TEST_CASE("an end that stops beside another chain is led to it across a gap wide
   CHECK(chains.open.size() == 2);
   CHECK(report.bridged_gaps.size() == 2);
   for (const engine::BridgedGap& gap : report.bridged_gaps) CHECK(gap.width() == Approx(0.3));
+}
+
+TEST_CASE("a bridge runs straight across, not along the tangents at its ends", "[slicing]") {
+  // Three walls of a narrow room: the section's ends both point out of the missing one.
+  const auto wall = [](const Vector2& from, const Vector2& to) {
+    return bilinear({from.x(), from.y(), 0}, {to.x(), to.y(), 0}, {from.x(), from.y(), 5},
+                    {to.x(), to.y(), 5});
+  };
+  const Model room =
+      model_of("room", {wall({0, 0}, {0, 10}), wall({0, 10}, {0.4, 10}), wall({0.4, 10}, {0.4, 0})});
+  engine::SliceOptions options;
+  options.epsilon = 0.05;
+  engine::Slicer slicer(room, {{2.0, 2.0, 2.0}}, options);
+  const engine::Layer layer = *slicer.next();
+  REQUIRE(layer.closed.size() == 1);
+  for (const Vector2& point : engine::flatten(layer.closed.front().curve, 1e-4)) {
+    CHECK(point.y() > -1e-6);
+    CHECK(point.x() > -1e-6);
+    CHECK(point.x() < 0.4 + 1e-6);
+  }
+  CHECK(std::abs(engine::signed_area(layer.closed.front().curve)) == Approx(4.0));
 }
 
 TEST_CASE("a wall between two solids bounds nothing and stays as an open contour", "[slicing]") {

@@ -1,0 +1,82 @@
+#include "tools/bench/contour_kinds.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace lamina::tools {
+namespace {
+
+bool encloses(const engine::Loop& loop, const engine::Vector2& place) {
+  bool inside = false;
+  for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+    const engine::Vector2& a = loop[i];
+    const engine::Vector2& b = loop[j];
+    if ((a.y() > place.y()) != (b.y() > place.y()) &&
+        place.x() < (b.x() - a.x()) * (place.y() - a.y()) / (b.y() - a.y()) + a.x()) {
+      inside = !inside;
+    }
+  }
+  return inside;
+}
+
+std::vector<std::size_t> nesting_depths(const std::vector<engine::Loop>& loops) {
+  std::vector<std::size_t> depths;
+  for (const engine::Loop& loop : loops) {
+    depths.push_back(
+        static_cast<std::size_t>(std::count_if(loops.begin(), loops.end(), [&](const engine::Loop& around) {
+          return &around != &loop && encloses(around, loop.front());
+        })));
+  }
+  std::sort(depths.begin(), depths.end());
+  return depths;
+}
+
+}  // namespace
+
+std::vector<engine::Loop> closed_loops(const engine::Layer& layer, double tolerance) {
+  std::vector<engine::Loop> loops;
+  for (const engine::ClosedContour& contour : layer.closed) {
+    if (!contour.touch) loops.push_back(engine::flatten(contour.curve, tolerance));
+  }
+  std::erase_if(loops, [](const engine::Loop& loop) { return loop.empty(); });
+  return loops;
+}
+
+ContourKinds kinds_of(const engine::Layer& layer, double tolerance) {
+  ContourKinds kinds;
+  for (const engine::ClosedContour& contour : layer.closed) kinds.touching += contour.touch ? 1 : 0;
+  for (const engine::OpenContour& contour : layer.open) ++(contour.touch ? kinds.touching : kinds.open);
+  kinds.planar = layer.planar.size();
+  for (const engine::PlanarContour& contour : layer.planar) kinds.holes += contour.inner.size();
+  kinds.points = layer.points.size();
+  kinds.depths = nesting_depths(closed_loops(layer, tolerance));
+  return kinds;
+}
+
+ContourKinds kinds_of(const engine::Region& region) {
+  std::vector<engine::Loop> loops;
+  for (const engine::Polygon& polygon : region) {
+    loops.push_back(polygon.outer);
+    loops.insert(loops.end(), polygon.holes.begin(), polygon.holes.end());
+  }
+  ContourKinds kinds;
+  kinds.depths = nesting_depths(loops);
+  return kinds;
+}
+
+std::string described(const ContourKinds& kinds) {
+  std::string text = fmt::format("{} closed at depths", kinds.depths.size());
+  for (const std::size_t depth : kinds.depths) text += fmt::format(" {}", depth);
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) text += fmt::format(", {} {}", count, what);
+  };
+  add(kinds.touching, "touch curves");
+  add(kinds.open, "open");
+  add(kinds.planar, "planar");
+  add(kinds.holes, "planar holes");
+  add(kinds.points, "points");
+  return text;
+}
+
+}  // namespace lamina::tools
