@@ -290,6 +290,8 @@ std::vector<Key> printer_keys() {
 
       connection.integer("baud", &PortOptions::baud, "bit/s", within(1200, 4000000),
                          "speed of a serial line"),
+      connection.choice("restart", &PortOptions::restart, {"as_wired", "force", "avoid"},
+                        "of the board when its port is opened"),
   };
 }
 

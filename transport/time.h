@@ -15,8 +15,13 @@ using Duration = std::chrono::nanoseconds;
 /// A moment on the caller's timeline. Moment - moment is a span; moment + moment does not compile.
 using Instant = std::chrono::time_point<Timeline, Duration>;
 
-/// `seconds` as a span, rounded to the nearest nanosecond.
+/// The longest span that is made of seconds: with a moment of today it still adds up.
+inline constexpr double kLongestSeconds = 3e9;
+
+/// `seconds` as a span, rounded to the nearest nanosecond, at most some ninety years; no number is none.
 constexpr Duration from_seconds(double seconds) {
+  if (!(seconds > -kLongestSeconds)) seconds = seconds < 0 ? -kLongestSeconds : 0;
+  if (seconds > kLongestSeconds) seconds = kLongestSeconds;
   return Duration(static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));
 }
 

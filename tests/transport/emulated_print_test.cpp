@@ -172,7 +172,7 @@ TEST_CASE("emulated print: with a window a bad link never hangs the print nor lo
 TEST_CASE("emulated print: a printer that restarts or halts in the middle ends the print") {
   EmulatedPrintOptions options = one_line_in_flight();
   SECTION("restart") {
-    options.emulator.faults.restart_at = 60;
+    options.emulator.faults = {parse_fault_order("restart@command:60")};
     const EmulatedPrint print = print_on_emulator(source_of(sample_print(200)), options);
     CHECK(print.result.outcome == JobPhase::kFailed);
     CHECK(print.result.failure.find("restarted in the middle") != std::string::npos);
@@ -180,7 +180,7 @@ TEST_CASE("emulated print: a printer that restarts or halts in the middle ends t
     CHECK(print.result.progress.job_lines_acknowledged < 60);
   }
   SECTION("thermal fault") {
-    options.emulator.faults.halt_at = 60;
+    options.emulator.faults = {parse_fault_order("thermal-runaway@command:60")};
     const EmulatedPrint print = print_on_emulator(source_of(sample_print(200)), options);
     CHECK(print.result.outcome == JobPhase::kFailed);
     CHECK(print.result.failure.find("Thermal Runaway") != std::string::npos);

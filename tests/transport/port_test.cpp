@@ -176,8 +176,8 @@ TEST_CASE("runner: a print over a real pseudo-terminal, in real time") {
   CHECK(result.progress.job_lines_sent == result.progress.job_lines_acknowledged);
   CHECK(result.progress.wire.resends == 0);
   CHECK(progress_calls > 10);
-  CHECK(job.firmware().machine == "Lamina Emulated Printer");
-  CHECK(job.capabilities().at("ARCS"));
+  CHECK(job.printer().firmware.machine == "Lamina Emulated Printer");
+  CHECK(job.printer().can("ARCS"));
   REQUIRE(result.progress.temperatures.find("T") != nullptr);
   printer.stop();
   CHECK(printer.result.report.beads == 120);

@@ -1,25 +1,27 @@
 // Runs an emulated printer on a pseudo-terminal for a foreign host: prints the path on the first line, lives
-// until its input ends, then prints what was deposited. `--flip RATE` damages bytes on the way to the
-// printer.
+// until its input ends, then prints what was deposited. Every argument is a fault to order.
 
 #include <atomic>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
+#include <exception>
 #include <string>
 #include <thread>
 
 #include "transport/emulator/emulator_server.h"
+#include "transport/emulator/fault_order.h"
 #include "transport/port/pty_host.h"
 
 int main(int argc, char** argv) {
   using namespace lamina::transport;
   EmulatorServerOptions options;
   options.time_scale = 50;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    if (std::strcmp(argv[i], "--flip") == 0)
-      options.to_printer.faults.flip = std::strtod(argv[i + 1], nullptr);
+  try {
+    for (int i = 1; i < argc; ++i) options.emulator.faults.push_back(parse_fault_order(argv[i]));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
   }
+  give_to_wires(options.emulator.faults, options.to_printer.faults, options.to_host.faults);
   options.to_printer.faults.spacing = 200;
 
   PtyHost device;

@@ -1,7 +1,8 @@
 """Printrun's printcore, a host that knows nothing of lamina, prints on the emulated printer to the end.
 
-usage: printcore_prints.py EMULATOR [--flip RATE]    (EMULATOR: the program that serves an emulated printer on a pty)
-exit codes: 0 it did, 1 it did not, 77 printrun is not installed (skipped)
+usage: printcore_prints.py [--hangs] EMULATOR [FAULT...]    (EMULATOR serves an emulated printer on a pty)
+With --hangs it must not come to the end: printcore waits for a lost ok for ever, on a real Marlin as here.
+exit codes: 0 as expected, 1 not so, 77 printrun is not installed (skipped)
 """
 
 import logging
@@ -20,6 +21,7 @@ except ImportError:
 CHORDS = 300
 EXTRUSION = 0.03125
 LIMIT = 60  # s
+HANGS_FOR = 5  # s without a line sent
 
 
 def sample():
@@ -39,15 +41,33 @@ def wait_until(condition, what):
         time.sleep(0.02)
 
 
+def wait_until_it_hangs(host):
+    sent, since = host.queueindex, time.monotonic()
+    while time.monotonic() - since < HANGS_FOR:
+        if not host.printing:
+            sys.exit("the print came to its end although an ok was lost")
+        if host.queueindex != sent:
+            sent, since = host.queueindex, time.monotonic()
+        time.sleep(0.05)
+    print(f"printcore hangs at line {sent} of {CHORDS}")
+
+
 def main():
     logging.disable(logging.CRITICAL)
-    emulator = subprocess.Popen(sys.argv[1:], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    hangs = sys.argv[1] == "--hangs"
+    command = sys.argv[2:] if hangs else sys.argv[1:]
+    emulator = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     try:
         path = emulator.stdout.readline().strip()
         host = printcore()
         host.connect(path, 115200)
         wait_until(lambda: host.online, "printcore does not come online")
         host.startprint(gcoder.LightGCode(sample()))
+        if hangs:
+            wait_until_it_hangs(host)
+            host.cancelprint()
+            host.disconnect()
+            return
         wait_until(lambda: not host.printing, "the print does not end")
         # printcore calls a print over when the last line is sent; an answer to M400 means that it has run.
         answers = []
@@ -62,7 +82,7 @@ def main():
     words = report.split()
     figures = dict(zip(words[::2], words[1::2]))
     # A host that sends on while an error is being told lets the firmware run line tails; without faults it must be exact.
-    clean = len(sys.argv) == 2
+    clean = len(command) == 1
     if clean and (int(figures["beads"]) != CHORDS or int(figures["refused"]) != 0):
         sys.exit(f"{CHORDS} beads and no refused line were to be expected")
     if clean and abs(float(figures["filament"]) - CHORDS * EXTRUSION) > 1e-3:

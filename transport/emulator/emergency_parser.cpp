@@ -6,8 +6,8 @@ namespace lamina::transport {
 
 namespace {
 
-/// Enough for "N-2000000000 M112".
-constexpr std::size_t kLongestPrefix = 20;
+/// Enough for "N-2000000000 M876 S1".
+constexpr std::size_t kLongestPrefix = 24;
 
 std::string without_number(const std::string& line) {
   std::size_t at = line.find_first_not_of(' ');
@@ -22,7 +22,7 @@ std::string without_number(const std::string& line) {
 
 }  // namespace
 
-std::optional<EmergencyCommand> emergency_command(const std::string& line) {
+std::optional<EmergencyCommand> early_command(const std::string& line) {
   if (line.starts_with("M112")) return EmergencyCommand::kKill;
   if (line.starts_with("M108")) return EmergencyCommand::kBreakWaits;
   if (line.starts_with("M410")) return EmergencyCommand::kQuickStop;
@@ -30,7 +30,12 @@ std::optional<EmergencyCommand> emergency_command(const std::string& line) {
 }
 
 std::optional<EmergencyCommand> EmergencyParser::push(char byte) {
-  if (byte == '\n' || byte == '\r') return emergency_command(without_number(std::exchange(line_, {})));
+  if (byte == '\n' || byte == '\r') {
+    const std::string line = without_number(std::exchange(line_, {}));
+    if (line.starts_with("M524")) return EmergencyCommand::kAbortCard;
+    if (line.starts_with("M876 S") || line.starts_with("M876S")) return EmergencyCommand::kAnswer;
+    return early_command(line);
+  }
   if (line_.size() < kLongestPrefix) line_ += byte;
   return std::nullopt;
 }

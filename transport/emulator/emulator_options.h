@@ -3,21 +3,31 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "transport/emulator/fault_order.h"
 #include "transport/time.h"
 
 namespace lamina::transport {
 
 /// What the firmware was compiled with. DEFAULT: stock Marlin 2.1.
 struct FirmwareFeatures {
-  bool advanced_ok = false;       ///< ok carries N, P and B
-  bool emergency_parser = false;  ///< M112, M108, M410 act when their bytes arrive
-  bool host_actions = false;      ///< //action: lines
-  bool arcs = true;               ///< G2, G3
-  bool bezier = false;            ///< G5
-  bool auto_report = true;        ///< M155, M154
-  bool silent_duplicates = true;  ///< a line received again is dropped without a word (since 2.1.2)
+  bool advanced_ok = false;          ///< ok carries N, P and B
+  bool emergency_parser = false;     ///< M112, M108, M410 act when their bytes arrive
+  bool host_actions = false;         ///< //action: lines
+  bool arcs = true;                  ///< G2, G3
+  bool bezier = false;               ///< G5
+  bool auto_report = true;           ///< M155, M154
+  bool silent_duplicates = true;     ///< a line received again is dropped without a word (since 2.1.2)
+  bool meatpack = false;             ///< packed lines
+  bool sd_card = false;              ///< M20 to M33
+  bool firmware_retraction = false;  ///< G10, G11
+  bool leveling = false;             ///< G29
+  bool filament_change = false;      ///< M600, G27, M125
+  bool cancel_objects = false;       ///< M486
 };
 
 /// Where the bytes of a full receive buffer go.
@@ -33,6 +43,10 @@ struct SerialOptions {
   Overflow overflow = Overflow::kHoldBack;
   Duration busy_interval = std::chrono::seconds(2);  ///< between busy lines; M113 changes it
   Duration wait_interval{0};                         ///< `wait` after so long with nothing to do; 0 is off
+  /// From an error line to the emptying of the receive buffer: firmwares without a transmit buffer wait until
+  /// the line has gone out. What arrives meanwhile is thrown away, what comes later is the tail of a line.
+  Duration refusal_time{0};
+  Duration boot_time{0};  ///< after power-up and restart: deaf for so long
 };
 
 /// Per axis X, Y, Z, E.
@@ -48,8 +62,10 @@ struct MotionOptions {
   double travel_acceleration = 3000;                 ///< mm/s^2
   double retract_acceleration = 3000;                ///< mm/s^2, moves of the extruder alone
   double junction_deviation = 0.013;                 ///< mm
-  double minimum_speed = 0.05;                       ///< mm/s at which the planner starts and ends
-  std::size_t block_buffer = 16;                     ///< blocks; one of them stays free
+  /// mm/s by which an axis may change its speed at once: classic jerk instead of junction deviation.
+  std::optional<PerAxis> jerk;
+  double minimum_speed = 0.05;    ///< mm/s at which the planner starts and ends
+  std::size_t block_buffer = 16;  ///< blocks; one of them stays free
   Duration min_segment_time =
       std::chrono::milliseconds(20);  ///< shorter ones are stretched while the buffer runs low
   Duration first_block_delay =
@@ -58,6 +74,17 @@ struct MotionOptions {
   double min_extrude_temperature = 170;              ///< deg C
   double max_extrude_length = 200;                   ///< mm of filament in one move
   double filament_diameter = 1.75;                   ///< mm
+  double firmware_retraction = 3;                    ///< mm, G10; M207 changes it
+  double firmware_retraction_feedrate = 45;          ///< mm/s
+  std::array<double, 3> park{0, 0, 20};              ///< mm; Z is a lift
+};
+
+/// When a heater counts as broken. DEFAULT: Marlin's for the hotend.
+struct ProtectionOptions {
+  double hysteresis = 4;                               ///< deg C below a target once reached ...
+  Duration runaway_period = std::chrono::seconds(40);  ///< ... for so long: thermal runaway
+  double heating_increase = 2;                         ///< deg C that heating up must gain ...
+  Duration heating_period = std::chrono::seconds(20);  ///< ... in this time, or heating has failed
 };
 
 /// A heater as a thermal mass that loses heat to the room.
@@ -74,6 +101,8 @@ struct ThermalOptions {
   Duration residency = std::chrono::seconds(10);  ///< M109 and M190 want the target held for so long
   double window = 1;                              ///< deg C from the target within which that time begins
   double hysteresis = 3;                          ///< deg C from the target beyond which it begins anew
+  ProtectionOptions hotend_protection;
+  ProtectionOptions bed_protection{2, std::chrono::seconds(20), 2, std::chrono::seconds(60)};
 };
 
 /// How much of the print is kept in memory.
@@ -82,19 +111,17 @@ enum class RecordDetail {
   kBeads    ///< every extruded move
 };
 
-/// What goes wrong in the printer itself, by the count of commands run.
-struct MachineFaults {
-  std::int64_t restart_at = -1;  ///< instead of running that command it restarts, once; -1: never
-  std::int64_t halt_at = -1;     ///< instead of running that command it halts with a thermal fault; -1: never
-};
-
 struct EmulatorOptions {
   std::string machine_name = "Lamina Emulated Printer";
   FirmwareFeatures features;
   SerialOptions serial;
   MotionOptions motion;
   ThermalOptions thermal;
-  MachineFaults faults;
+  std::vector<FaultOrder> faults;  ///< what goes wrong in the printer itself
+  std::uint64_t fault_seed = 1;    ///< for those by chance
+  /// What M115 says of a capability, whatever the firmware can do.
+  std::map<std::string, bool> claims;
+  std::string power_up_noise;  ///< said before anything else
   RecordDetail record = RecordDetail::kTotals;
   bool greet = true;  ///< say `start` and the version at power-up
 };

@@ -25,7 +25,9 @@ class Server {
 
   EmulatorServerResult run(const std::atomic<bool>& stop) {
     try {
-      while (!stop) turn();
+      while (!stop && !emulator_.unplugged()) turn();
+      // A pulled cable: the host's end hangs up.
+      if (emulator_.unplugged()) device_.close();
     } catch (const PortError&) {
       // The host's end has gone for good; what was printed stands.
     }

@@ -28,8 +28,9 @@ struct EmulatorServerResult {
 };
 
 /// Runs an emulated printer behind `device` (the printer's end of a pty or of a memory port) by the wall
-/// clock until `stop` becomes true or the device goes away. Hosts may come and go. Bytes that no host reads
-/// are dropped once 64 KiB of them wait. This is the rim: it reads the clock and sleeps in the port.
+/// clock until `stop` becomes true, the device goes away or is unplugged to order. Hosts may come and go.
+/// Bytes that no host reads are dropped once 64 KiB of them wait. This is the rim: it reads the clock and
+/// sleeps in the port.
 EmulatorServerResult serve_emulator(Port& device, const EmulatorServerOptions& options,
                                     const std::atomic<bool>& stop);
 

@@ -34,6 +34,7 @@ void Heater::advance(Instant now) {
 
 double Heater::duty() const {
   if (target_ <= 0) return 0;
+  if (options_.heating_rate <= 0) return 1;
   const double holding = (target_ - room_) / (options_.heating_rate * options_.time_constant);
   return std::clamp(holding + (target_ - temperature_) / options_.band, 0.0, 1.0);
 }

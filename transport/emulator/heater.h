@@ -17,6 +17,9 @@ class Heater {
 
   void set_target(double celsius) { target_ = celsius; }
 
+  /// Its wire is broken from here on: the controller does what it does, and nothing gets warm.
+  void break_wire() { options_.heating_rate = 0; }
+
   double temperature() const { return temperature_; }
   double target() const { return target_; }
 

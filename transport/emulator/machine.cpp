@@ -51,7 +51,10 @@ MachinePosition Machine::destination(const GcodeCommand& command) {
 }
 
 Machine::Prepared Machine::prepare_move(MachinePosition target, double feedrate) {
-  Prepared prepared;
+  if (objects_.skipping()) {
+    planned_[3] = target[3];
+    return {};
+  }
   bool outside = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double inside = std::clamp(target[axis], motion_.bed_min[axis], motion_.bed_max[axis]);
@@ -61,8 +64,16 @@ Machine::Prepared Machine::prepare_move(MachinePosition target, double feedrate)
   }
   if (outside) ++record_.report().outside_moves;
 
+  return prepare(target, target[3] - planned_[3], feedrate);
+}
+
+Machine::Prepared Machine::prepare_retraction(double length, double feedrate) {
+  return prepare(planned_, length, feedrate);
+}
+
+Machine::Prepared Machine::prepare(const MachinePosition& target, double extrusion, double feedrate) {
+  Prepared prepared;
   PlannedMove move{planned_, target, feedrate, 0};
-  double extrusion = target[3] - planned_[3];
   planned_ = target;
   if (extrusion != 0 && hotend_.temperature() < motion_.min_extrude_temperature) {
     ++record_.report().cold_extrusions;
@@ -90,6 +101,9 @@ void Machine::start_move(const PlannedMove& move, Instant now) {
     report.starved += dry;
     report.longest_starved = std::max(report.longest_starved, dry);
   }
+  if (oozes_since_)
+    record_.report().longest_ooze = std::max(record_.report().longest_ooze, now - *oozes_since_);
+  oozes_since_.reset();
   ran_dry_.reset();
   standstill_expected_ = false;
   if (!first_move_) first_move_ = now;
@@ -111,6 +125,7 @@ void Machine::finish_homing(const std::array<bool, 3>& axes) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!axes[axis]) continue;
     planned_[axis] = motion_.bed_min[axis];
+    displacement_[axis] = 0;
     modes_.shift[axis] = 0;
     modes_.homed[axis] = true;
   }
@@ -120,10 +135,20 @@ void Machine::finish_homing(const std::array<bool, 3>& axes) {
 void Machine::forget(Instant now) {
   stop(now);
   modes_ = {};
+  objects_ = {};
+  for (std::size_t axis = 0; axis < 3; ++axis) displacement_[axis] += planned_[axis];
   planned_ = {};
   planner_.set_position(planned_);
   hotend_.set_target(0);
   bed_.set_target(0);
+}
+
+PlannedMove Machine::displaced(PlannedMove move) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    move.from[axis] += displacement_[axis];
+    move.to[axis] += displacement_[axis];
+  }
+  return move;
 }
 
 void Machine::stop(Instant now) {
@@ -131,6 +156,7 @@ void Machine::stop(Instant now) {
   const MachinePosition at = planner_.position(now);
   std::copy_n(at.begin(), 3, planned_.begin());
   ran_dry_.reset();
+  oozes_since_.reset();
 }
 
 void Machine::advance(Instant now) {
@@ -140,9 +166,12 @@ void Machine::advance(Instant now) {
     if (*next > now) break;
     const std::optional<PlannedMove> ended = planner_.advance(now);
     if (!ended) continue;
-    record_.add(*ended);
+    record_.add(displaced(*ended));
     record_.report().moving = *next - *first_move_;
-    if (planner_.empty() && ended->deposited > 0) ran_dry_ = *next;
+    if (ended->to[3] != ended->from[3]) pressure_ = ended->to[3] > ended->from[3];
+    if (!planner_.empty()) continue;
+    if (ended->deposited > 0) ran_dry_ = *next;
+    if (pressure_ && hotend_.temperature() >= motion_.min_extrude_temperature) oozes_since_ = *next;
   }
 }
 

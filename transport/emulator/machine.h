@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "transport/emulator/emulator_options.h"
@@ -54,6 +55,21 @@ class Machine {
   /// Takes a prepared move over into the planner, which must have a free place.
   void start_move(const PlannedMove& move, Instant now);
 
+  /// G10 and G11: the extruder alone, by `length` mm, without a change of its coordinate.
+  Prepared prepare_retraction(double length, double feedrate);
+
+  /// G10 has drawn the filament back.
+  bool retracted() const { return modes_.firmware_retracted; }
+  void set_retracted(bool retracted) { modes_.firmware_retracted = retracted; }
+
+  /// M486: moves come to nothing while the present object is cancelled.
+  struct Objects {
+    int current = -1;
+    std::set<int> cancelled;
+    bool skipping() const { return cancelled.contains(current); }
+  };
+  Objects& objects() { return objects_; }
+
   /// G28: the time it takes from where the axes are; and its end.
   Duration homing_time(const std::array<bool, 3>& axes) const;
   void finish_homing(const std::array<bool, 3>& axes);
@@ -77,6 +93,7 @@ class Machine {
   const Planner& planner() const { return planner_; }
   Heater& hotend() { return hotend_; }
   Heater& bed() { return bed_; }
+  bool heating() const { return hotend_.target() > 0 || bed_.target() > 0; }
   PrintRecord& record() { return record_; }
   const PrintRecord& record() const { return record_; }
 
@@ -93,11 +110,18 @@ class Machine {
     bool relative = false;
     bool extruder_relative = false;
     bool soft_limits = true;
+    bool firmware_retracted = false;
     double unit = 1;       ///< mm
     double feedrate = 25;  ///< mm/s
     double feed_percent = 100;
     double flow_percent = 100;
   };
+
+  /// The move as it really goes.
+  PlannedMove displaced(PlannedMove move) const;
+
+  /// The way there, as the record and the planner take it.
+  Prepared prepare(const MachinePosition& target, double extrusion, double feedrate);
 
   MotionOptions motion_;
   Planner planner_;
@@ -106,10 +130,16 @@ class Machine {
   PrintRecord record_;
 
   MachinePosition planned_{};
+  /// Where the nozzle really is, less where the firmware believes it to be: the axes stay where they are when
+  /// it restarts and begins to count at zero. Homing an axis puts that right.
+  std::array<double, 3> displacement_{};
   Modes modes_;
 
   std::optional<Instant> first_move_;
+  Objects objects_;
   std::optional<Instant> ran_dry_;  ///< while extruding
+  bool pressure_ = false;           ///< the last thing the extruder did was to push
+  std::optional<Instant> oozes_since_;
   bool standstill_expected_ = false;
 };
 

@@ -31,6 +31,14 @@ void Planner::push(const PlannedMove& move, Instant now) {
   assert(free() > 0);
   Block block = make_block(move);
   block.max_entry_speed = options_.minimum_speed;
+  if (options_.jerk) {
+    // From a standstill every axis may jump to its jerk.
+    block.max_entry_speed = block.speed;
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      const double share = std::abs(block.direction[axis]);
+      if (share > 0) block.max_entry_speed = std::min(block.max_entry_speed, (*options_.jerk)[axis] / share);
+    }
+  }
   if (waiting_blocks() > 0) block.max_entry_speed = junction_speed(blocks_.back(), block);
   if (blocks_.empty()) {
     delayed_ = true;
@@ -128,6 +136,7 @@ double Planner::limit_by_axis(double acceleration, const std::array<double, 4>& 
 /// Junction deviation: the speed at which a circle that leaves the corner by that much is run at the allowed
 /// acceleration. Directions have E in them, as in Marlin, and are brought back to unit length.
 double Planner::junction_speed(const Block& before, const Block& after) const {
+  if (options_.jerk) return jerk_speed(before, after);
   const auto unit = [](std::array<double, 4> direction) {
     const double length = std::sqrt(dot(direction, direction));
     for (double& component : direction) component /= length;
@@ -150,6 +159,20 @@ double Planner::junction_speed(const Block& before, const Block& after) const {
     speed_squared = std::min(speed_squared, after.length * acceleration / turned);
   }
   return std::min({std::sqrt(speed_squared), before.speed, after.speed});
+}
+
+/// Classic jerk: the speed at which no axis changes its own by more than its jerk at once. An axis that turns
+/// round changes by as much as it had before or gets after, whichever is more: Marlin does not add them.
+double Planner::jerk_speed(const Block& before, const Block& after) const {
+  const double speed = std::min(before.speed, after.speed);
+  double share = 1;
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    const double in = before.direction[axis] * speed;
+    const double out = after.direction[axis] * speed;
+    const double change = in * out < 0 ? std::max(std::abs(in), std::abs(out)) : std::abs(out - in);
+    if (change > (*options_.jerk)[axis]) share = std::min(share, (*options_.jerk)[axis] / change);
+  }
+  return std::max(options_.minimum_speed, speed * share);
 }
 
 void Planner::look_ahead() {

@@ -22,7 +22,8 @@ struct PlannedMove {
   double deposited = 0;  ///< mm of filament that leave the nozzle; carried for the record
 };
 
-/// Marlin's planner and stepper: a buffer of blocks with look-ahead by junction deviation, run off in time.
+/// Marlin's planner and stepper: a buffer of blocks with look-ahead by junction deviation or by classic jerk,
+/// run off in time.
 ///
 /// Speeds follow Marlin 2.1: a block enters at most as fast as junction deviation, both neighbours' speeds
 /// and the way left to stop allow; the block being run keeps the exit speed that it was started with; while
@@ -71,6 +72,7 @@ class Planner {
 
   Block make_block(const PlannedMove& move) const;
   double junction_speed(const Block& before, const Block& after) const;
+  double jerk_speed(const Block& before, const Block& after) const;
   double limit_by_axis(double acceleration, const std::array<double, 4>& direction) const;
   void look_ahead();
   std::size_t waiting_blocks() const { return blocks_.size() - (running_ ? 1 : 0); }

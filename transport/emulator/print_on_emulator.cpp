@@ -28,6 +28,7 @@ class Simulation {
       exchange();
       report();
       if (job_.finished()) break;
+      if (options_.steer) options_.steer(job_, now_);
       if (!cancelled && options_.cancelled && options_.cancelled()) {
         cancelled = true;
         job_.cancel(now_);
@@ -45,6 +46,8 @@ class Simulation {
     print.result.progress = job_.progress();
     print.result.outcome = job_.finished() ? job_.progress().phase : JobPhase::kFailed;
     if (job_.finished()) print.result.failure = job_.failure();
+    print.result.failure_kind = job_.failure_kind();
+    print.result.cancelled_by = job_.cancelled_by();
     print.result.elapsed = now_.time_since_epoch();
     print.report = emulator_.report();
     print.beads = emulator_.beads();

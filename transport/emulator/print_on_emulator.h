@@ -19,6 +19,8 @@ struct EmulatedPrintOptions {
   WireOptions to_printer;
   WireOptions to_host;
   PrintCallbacks callbacks;
+  /// Called once per step of the simulation: the place to pause, resume, inject.
+  std::function<void(PrintJob&, Instant)> steer;
   /// Asked once per step of the simulation; true cancels the print.
   std::function<bool()> cancelled;
   /// Simulated time after which the print counts as hung. DEFAULT: 30 days.

@@ -43,6 +43,16 @@ struct PrintReport {
   std::int64_t refused_lines = 0;    ///< lines answered with an error and a resend request
   std::int64_t duplicate_lines = 0;  ///< lines received again and dropped
   std::int64_t bytes_lost = 0;       ///< bytes that found the receive buffer full
+  /// Numbered lines that were run a second time, or never: M110 lets both happen.
+  std::int64_t doubled_lines = 0;
+  std::int64_t skipped_lines = 0;
+  /// Commands without a number that were obeyed in a numbered conversation, such as the tails of lines that
+  /// the error flush has cut; and those of them that move.
+  std::int64_t unnumbered_commands = 0;
+  std::int64_t unnumbered_moves = 0;
+  /// The longest time that the nozzle stood still, hot and with the filament not drawn back, between two
+  /// moves.
+  Duration longest_ooze{};
 };
 
 /// Writes down what the printer does.

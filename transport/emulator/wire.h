@@ -6,10 +6,20 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "transport/time.h"
 
 namespace lamina::transport {
+
+/// What can happen to one byte.
+enum class ByteFault { kFlip, kDrop, kRepeat, kInsert };
+
+/// The same for one byte in particular.
+struct OrderedByteFault {
+  ByteFault fault = ByteFault::kFlip;
+  std::uint64_t byte = 0;  ///< the first is 0
+};
 
 /// What goes wrong on a wire, each with its chance.
 struct WireFaults {
@@ -24,11 +34,15 @@ struct WireFaults {
   /// turned over twice in one line goes unnoticed, whatever the host does.
   std::size_t spacing = 0;
   std::uint64_t seed = 1;
+  std::vector<OrderedByteFault> ordered;
 };
 
 struct WireOptions {
   int baud = 0;        ///< bits per second, ten a byte; 0: no time at all
   Duration latency{};  ///< between the last bit of a byte and its arrival
+  /// Bytes travel in packets of so many, as through a USB adapter; a packet that is not full leaves when its
+  /// first byte has waited for `latency`, and then takes no time more. 0: one by one.
+  std::size_t packet = 0;
   WireFaults faults;
 };
 
@@ -52,6 +66,9 @@ class Wire {
 
   bool empty() const { return under_way_.empty(); }
 
+  /// Bytes that noise has touched so far.
+  std::int64_t damaged() const { return damaged_; }
+
  private:
   struct Byte {
     Instant arrives;
@@ -65,8 +82,12 @@ class Wire {
 
   WireOptions options_;
   std::deque<Byte> under_way_;
-  Instant free_{};  ///< when the last byte has left
+  Instant free_{};               ///< when the last byte has left
+  std::size_t packet_size_ = 0;  ///< bytes of the packet that is being filled: the last so many under way
+  Instant packet_leaves_{};
   std::size_t since_damage_ = 0;
+  std::uint64_t sent_ = 0;
+  std::int64_t damaged_ = 0;
   std::mt19937_64 random_;
 };
 

@@ -20,6 +20,11 @@ enum class PortProblem {
   kUnplugged,        ///< it was there, and is gone
   kNotATerminal,     ///< the path is no serial device and no pseudo-terminal
   kUnsupportedBaud,  ///< the device refuses that speed
+  kBadAddress,       ///< a network address that is not tcp://HOST:PORT
+  kUnknownHost,      ///< no such name in the network
+  kRefused,          ///< the host is there, and nobody listens at that port of it
+  kUnreachable,      ///< no way to the host, or no word from it in time
+  kNoAnswer,         ///< nothing that speaks like a printer, at any of the usual speeds
   kSystem            ///< anything else; the message carries the system's words
 };
 
@@ -59,15 +64,21 @@ class Port {
   /// Throws away what was written and has not left yet, and what has arrived and was not read yet.
   virtual void discard() = 0;
 
-  /// Gives the device free. A second call does nothing.
+  /// Gives the device free. What was written has up to a second to leave, unless the device failed before. A
+  /// second call does nothing.
   virtual void close() = 0;
 
-  /// What to call this port in a message: a path, or "memory".
+  /// Bits per second from now on. Ports without a serial line behind them ignore it.
+  virtual void set_baud(int /*baud*/) {}
+
+  /// What to call this port in a message: a path, an address, or "memory".
   virtual std::string name() const = 0;
 };
 
 /// Opens the printer at `path` for this program alone: a serial device through libserialport, a
-/// pseudo-terminal through termios. Symbolic links (/dev/serial/by-id/...) are followed. Throws PortError.
+/// pseudo-terminal through termios, "tcp://HOST:PORT" as a raw network connection (ser2net, ESP3D). Symbolic
+/// links (/dev/serial/by-id/...) are followed. With a baud rate of 0 the rate is searched first (find_baud),
+/// which takes some seconds. Throws PortError.
 std::unique_ptr<Port> open_port(const std::string& path, const PortOptions& options = {});
 
 }  // namespace lamina::transport

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "transport/port/raw_terminal.h"
+#include "transport/port/terminal_speed.h"
 
 namespace lamina::transport {
 
@@ -32,6 +33,10 @@ PtyHost::PtyHost() : DescriptorPort("/dev/ptmx") {
 
 PtyHost::~PtyHost() {
   PtyHost::close();
+}
+
+int PtyHost::host_baud() const {
+  return terminal_speed(descriptor_);
 }
 
 void PtyHost::close() {

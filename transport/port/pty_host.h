@@ -18,6 +18,9 @@ class PtyHost : public DescriptorPort {
   /// What a host opens, /dev/pts/N.
   const std::string& path() const { return path_; }
 
+  /// The speed that a host has set, bits per second. Bytes pass at any.
+  int host_baud() const;
+
   void close() override;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 namespace lamina::transport {
 
@@ -24,6 +25,15 @@ std::string_view command_word(std::string_view command) {
   std::size_t end = 1;
   while (end < command.size() && command[end] >= '0' && command[end] <= '9') ++end;
   return end == 1 ? std::string_view{} : command.substr(0, end);
+}
+
+bool takes_text(std::string_view command) {
+  constexpr std::array kTextCodes{0,   1,   16,  20,  23,  28,  30,  32,  33,  36,  98, 117,
+                                  118, 486, 550, 551, 552, 587, 588, 589, 808, 862, 928};
+  if (command.empty() || (command.front() != 'M' && command.front() != 'm')) return false;
+  int code = 0;
+  const auto [end, error] = std::from_chars(command.data() + 1, command.data() + command.size(), code);
+  return error == std::errc() && std::find(kTextCodes.begin(), kTextCodes.end(), code) != kTextCodes.end();
 }
 
 }  // namespace lamina::transport

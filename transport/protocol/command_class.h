@@ -17,4 +17,7 @@ CommandClass classify(std::string_view command);
 /// The command word of a stripped command: "G1" of "G1 X5" and of "G1X5". Empty if there is none.
 std::string_view command_word(std::string_view command);
 
+/// The command's parameter is text: a file name, a message for the display or for the host.
+bool takes_text(std::string_view command);
+
 }  // namespace lamina::transport

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "transport/protocol/line_form.h"
 #include "transport/protocol/line_framing.h"
 #include "transport/time.h"
 
@@ -12,6 +13,11 @@ namespace lamina::transport {
 struct Window {
   std::size_t lines = 3;
   std::size_t bytes = 127;
+  /// Hold a line's end back until the line before it is acknowledged, where that keeps the wire as full. Then
+  /// no whole line ever follows one that may be refused, and what the firmware's error flush leaves of a cut
+  /// line is erased by backspaces before anything can run it. Else (the answers take longer than a line, the
+  /// printer is hungry, and the link has lost nothing yet) whole lines go out ahead.
+  bool hold_ends = true;
 };
 
 /// How long the printer may be silent before the engine asks what arrived. Automatic reports do not count as
@@ -26,13 +32,23 @@ struct AnswerTimeouts {
   Duration blocking = std::chrono::minutes(5);
   /// A blocking command where busy lines are known: some of them must have been lost on the way.
   Duration blocking_busy_firmware = std::chrono::seconds(10);
-  /// Between one probe and the next.
+  /// Between the newline of a probe and its question, and from there to the next question, twice as long
+  /// from one to the next.
   Duration probe = std::chrono::seconds(1);
 };
 
 struct EngineOptions {
   Window window;
   AnswerTimeouts timeouts;
+  /// Bits per second of the wire, to tell how long a line takes; 0: no time, as with native USB.
+  int baud = 115200;
+  LineForm form;
+
+  /// Pack the lines where M115 offers it (Cap:MEATPACK:1).
+  bool meatpack = true;
+  /// For the answer to the request to unpack, and how often it is made before the lines stay as they are.
+  Duration meatpack_wait = std::chrono::milliseconds(500);
+  int meatpack_requests = 3;
 
   /// How long a freshly opened printer may take to say `start`. One that does not restart when it is opened
   /// says nothing.

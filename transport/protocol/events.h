@@ -12,6 +12,12 @@ namespace lamina::transport {
 /// The printer has taken the greeting; lines will go out.
 struct Connected {};
 
+/// The printer was found as an earlier host left it, still counting: it wants line `next`, and has taken
+/// every line before it.
+struct Rejoined {
+  LineNumber next = 0;
+};
+
 struct LineSent {
   NumberedLine line;
   bool again = false;  ///< sent before
@@ -68,7 +74,7 @@ struct Ended {
   LineNumber next = 0;
 };
 
-using Event = std::variant<Connected, LineSent, LineAcknowledged, ResendRequested, ProbeStarted, StrayReply,
-                           LineRefused, ReplyReceived, Ended>;
+using Event = std::variant<Connected, Rejoined, LineSent, LineAcknowledged, ResendRequested, ProbeStarted,
+                           StrayReply, LineRefused, ReplyReceived, Ended>;
 
 }  // namespace lamina::transport

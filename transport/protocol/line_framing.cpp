@@ -20,8 +20,10 @@ std::uint8_t checksum(std::string_view text) {
   return sum;
 }
 
-std::string frame_line(LineNumber number, std::string_view command) {
-  std::string line = fmt::format("N{} {}", number, command);
+std::string frame_line(LineNumber number, std::string_view command, LineFrame frame) {
+  std::string digits = fmt::format("{}", number);
+  if (frame.even_digits && digits.size() % 2 == 1 && number >= 0) digits.insert(0, 1, '0');
+  std::string line = fmt::format("N{}{}{}", digits, frame.blank ? " " : "", command);
   line += fmt::format("*{}", checksum(line));
   if (line.size() > kMaxLineBytes) throw LineError(std::string(command), line.size(), kMaxLineBytes);
   line += '\n';

@@ -29,8 +29,16 @@ class LineError : public std::runtime_error {
 /// '*'.
 std::uint8_t checksum(std::string_view text);
 
+/// How number and command are put together.
+struct LineFrame {
+  bool blank = true;  ///< between them
+  /// A zero before a number of an odd count of digits. Packed two to a byte, the number's last digit and the
+  /// command's G then share one, so that the firmware's error flush cannot cut a line in front of its G.
+  bool even_digits = false;
+};
+
 /// `command` as a numbered line with checksum and line end: "N3 G1 X50*5\n". Throws LineError if it would
 /// have more than kMaxLineBytes without the end.
-std::string frame_line(LineNumber number, std::string_view command);
+std::string frame_line(LineNumber number, std::string_view command, LineFrame frame = {});
 
 }  // namespace lamina::transport

@@ -1,8 +1,6 @@
 #include "transport/protocol/line_stripper.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "transport/protocol/command_class.h"
 
@@ -35,22 +33,13 @@ std::string_view without_frame(std::string_view text) {
   return trim(star == std::string_view::npos ? text : text.substr(0, star));
 }
 
-/// Bytes that Marlin's line reader acts on instead of keeping them.
+/// Bytes that Marlin's line reader, or its unpacker, acts on instead of keeping them.
 bool is_harmful(char c) {
-  return c == '\\' || (c >= 0 && c < ' ' && c != '\t') || c == 0x7f;
+  return c == '\\' || (c >= 0 && c < ' ' && c != '\t') || c == 0x7f || c == '\xFF';
 }
 
 /// A message that leaves room for a ten-digit line number and the checksum.
 constexpr std::size_t kMaxMessageBytes = 79;
-
-/// M codes whose parameter is text: file names, messages for the display and for the host.
-bool takes_text(std::string_view command) {
-  constexpr std::array kTextCodes{0, 1, 16, 23, 28, 30, 32, 33, 36, 117, 118, 862, 928};
-  if (command.empty() || upper(command.front()) != 'M') return false;
-  int code = 0;
-  const auto [end, error] = std::from_chars(command.data() + 1, command.data() + command.size(), code);
-  return error == std::errc() && std::find(kTextCodes.begin(), kTextCodes.end(), code) != kTextCodes.end();
-}
 
 }  // namespace
 

@@ -40,6 +40,11 @@ void OutstandingLines::forget_questions() {
                 [](const OutstandingLine& line) { return line.accepted && line.reports_temperature; });
 }
 
+void OutstandingLines::release_last(Instant now) {
+  lines_.back().held = false;
+  lines_.back().ended = now;
+}
+
 std::size_t OutstandingLines::unaccepted_lines() const {
   return static_cast<std::size_t>(std::count_if(lines_.begin(), lines_.end(),
                                                 [](const OutstandingLine& line) { return !line.accepted; }));

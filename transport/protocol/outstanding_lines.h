@@ -7,6 +7,7 @@
 
 #include "transport/protocol/command_class.h"
 #include "transport/protocol/line_framing.h"
+#include "transport/time.h"
 
 namespace lamina::transport {
 
@@ -17,6 +18,8 @@ struct OutstandingLine {
   CommandClass command_class = CommandClass::kQuick;
   bool reports_temperature = false;  ///< M105: its ok carries the temperatures, and no other ok does
   bool accepted = false;  ///< the printer has said that the line arrived whole; it may still be running
+  bool held = false;      ///< its end has not been sent yet
+  Instant ended{};        ///< when that was sent
 };
 
 /// The lines on their way, oldest first, as far as the printer's replies tell. The firmware runs them in this
@@ -50,6 +53,12 @@ class OutstandingLines {
   bool empty() const { return lines_.empty(); }
   const OutstandingLine& oldest() const { return lines_.front(); }
   const std::deque<OutstandingLine>& lines() const { return lines_; }
+
+  /// The last one's end is held back.
+  bool last_is_held() const { return !lines_.empty() && lines_.back().held; }
+
+  /// The end of the last one goes out.
+  void release_last(Instant now);
 
   /// Lines and bytes that may still be in the printer's receive buffer: those not known to be accepted.
   std::size_t unaccepted_lines() const;

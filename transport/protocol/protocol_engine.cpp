@@ -6,12 +6,27 @@
 
 #include <fmt/format.h>
 
+#include "transport/protocol/meatpack.h"
+#include "transport/protocol/packable_form.h"
+
 namespace lamina::transport {
 
 namespace {
 
 /// A number that cannot be next: Marlin answers with the number of the last line it took, and runs nothing.
 constexpr LineNumber kImpossibleNumber = 2'000'000'000;
+
+/// Of a numbered move, for the time that it takes.
+constexpr double kUsualLineBytes = 30;
+
+/// Number and checksum of a line, with room for numbers up to a thousand billion.
+constexpr std::size_t kMostFrameBytes = 18;
+
+/// Where the wire takes no time.
+constexpr Duration kUnhurriedAnswer = std::chrono::microseconds(1500);
+
+/// More lines than oks can be mistaken for those of others.
+constexpr LineNumber kPlainlyRun = 8;
 
 /// Its answer looks like no other ok, so it tells for certain that everything before it has run.
 constexpr const char* kReportTemperatures = "M105";
@@ -26,6 +41,11 @@ void ProtocolEngine::connect(Instant now) {
   due_ = now + options_.start_wait;
 }
 
+void ProtocolEngine::rejoin(Instant now) {
+  connect(now);
+  rejoining_ = true;
+}
+
 void ProtocolEngine::submit(std::string command, LineOrigin origin) {
   if (state_ == EngineState::kEnded || command.empty()) return;
   // The firmware looks for this text anywhere in a line, and takes a new line number from it.
@@ -35,7 +55,8 @@ void ProtocolEngine::submit(std::string command, LineOrigin origin) {
   }
   try {
     // Its number is not known yet; this leaves room for the lines that may come in between.
-    frame_line(10 * (history_.next() + static_cast<LineNumber>(injected_.size() + job_.size())), command);
+    frame_line(10 * (history_.next() + static_cast<LineNumber>(injected_.size() + job_.size())),
+               wire_form(command, options_.form));
   } catch (const LineError& error) {
     events_.emplace_back(LineRefused{std::move(command), origin, error.what()});
     return;
@@ -45,11 +66,17 @@ void ProtocolEngine::submit(std::string command, LineOrigin origin) {
 
 void ProtocolEngine::send_urgent(std::string_view command, Instant now) {
   if (state_ == EngineState::kEnded) return;
-  const std::string line = fmt::format("\n{}\n", command);
+  std::string line = fmt::format("\n{}\n", command);
+  // The emergency parser sees the bytes as they come, the line reader what the unpacker makes of them: with
+  // that switched off, both see the same.
+  if (packing_ == Packing::kOn)
+    line = meatpack::control(meatpack::kDisable) + line + meatpack::start(!options_.form.blanks);
+  // Its line end also ends a line whose end is held back.
+  if (outstanding_.last_is_held()) outstanding_.release_last(now);
   output_ += line;
   statistics_.bytes_sent += static_cast<LineNumber>(line.size());
   if (outstanding_.empty()) last_progress_ = now;
-  outstanding_.add({std::nullopt, line.size(), CommandClass::kQuick, false, false});
+  outstanding_.add({std::nullopt, line.size(), CommandClass::kQuick, false, false, false, now});
   last_sent_ = now;
 }
 
@@ -63,6 +90,7 @@ void ProtocolEngine::close(const std::string& why) {
 }
 
 void ProtocolEngine::receive(std::string_view bytes, Instant now) {
+  account_for_time(now);
   for (const std::string& line : reply_lines_.push(bytes)) {
     const Reply reply = parse_reply(line);
     events_.emplace_back(ReplyReceived{reply});
@@ -74,13 +102,17 @@ void ProtocolEngine::receive(std::string_view bytes, Instant now) {
 }
 
 void ProtocolEngine::tick(Instant now) {
+  account_for_time(now);
   switch (state_) {
     case EngineState::kIdle:
     case EngineState::kEnded:
       return;
     case EngineState::kWaitingForStart:
-      if (now >= due_) {
-        attempts_ = 0;
+      if (now < due_) return;
+      attempts_ = 0;
+      if (rejoining_) {
+        start_probe(now, options_.drain_quiet);
+      } else {
         greet(now);
       }
       return;
@@ -118,8 +150,12 @@ void ProtocolEngine::tick(Instant now) {
       }
       ++attempts_;
       question_sent_ = true;
-      output_ += frame_line(kImpossibleNumber, kReportTemperatures);
-      due_ = now + options_.timeouts.probe;
+      unpacker_in_doubt_ = true;
+      // An earlier host may have left the unpacker on.
+      if (rejoining_ && attempts_ % 2 == 0) output_ += meatpack::control(meatpack::kResetAll) + '\n';
+      output_ += resynchronized(encode(kImpossibleNumber, kReportTemperatures));
+      // More patience each time: a firmware may be at something that lets nothing else in.
+      due_ = now + options_.timeouts.probe * (1LL << std::min(attempts_ - 1, 10));
       return;
     case EngineState::kStreaming:
       break;
@@ -128,7 +164,7 @@ void ProtocolEngine::tick(Instant now) {
     start_probe(now, options_.timeouts.probe);
     return;
   }
-  send_what_fits(now);
+  if (settle_packing(now)) send_what_fits(now);
 }
 
 std::string ProtocolEngine::take_output() {
@@ -145,6 +181,7 @@ std::optional<Instant> ProtocolEngine::deadline() const {
     case EngineState::kEnded:
       return std::nullopt;
     case EngineState::kStreaming:
+      if (packing_ == Packing::kAsked) return packing_due_;
       if (outstanding_.empty()) return std::nullopt;
       return last_progress_ + answer_timeout();
     case EngineState::kDraining:
@@ -170,6 +207,10 @@ bool ProtocolEngine::cautious() const {
 void ProtocolEngine::greet(Instant now) {
   ++attempts_;
   state_ = EngineState::kGreeting;
+  packing_ = Packing::kOff;
+  packing_requests_ = 0;
+  // A host that was killed may have left the unpacker on. Other firmwares make an unknown command of this.
+  if (attempts_ % 2 == 0) output_ += meatpack::control(meatpack::kResetAll);
   // The line end first: a half line of the boot loader's or of another program's would swallow the greeting.
   output_ += '\n';
   output_ += frame_line(0, "M110 N0");
@@ -181,6 +222,11 @@ void ProtocolEngine::greet(Instant now) {
 }
 
 void ProtocolEngine::go_back_to(LineNumber number, Instant now) {
+  // It counts from the beginning: `start` was lost on the way.
+  if (number == 1 && acknowledged_next_ > 1 + kPlainlyRun) {
+    end(EndReason::kRestarted, kRestartedInTheMiddle);
+    return;
+  }
   if (number > history_.next()) {
     end(EndReason::kOutOfStep, fmt::format("the printer asks for line {}, which was never sent", number));
     return;
@@ -202,9 +248,11 @@ void ProtocolEngine::go_back_to(LineNumber number, Instant now) {
     return;
   }
   be_cautious();
+  erase_wanted_ = erase_wanted_ || outstanding_.last_is_held();
   outstanding_.keep_below(number);
   cursor_ = number;
   sync_wanted_ = true;
+  unpacker_in_doubt_ = true;
   state_ = EngineState::kDraining;
   last_progress_ = now;
   due_ = now + options_.drain_quiet;
@@ -223,8 +271,24 @@ void ProtocolEngine::start_probe(Instant now, Duration before_question) {
   last_probe_answer_.reset();
   announced_error_.reset();
   // Ends a line whose own end was lost. Without one, the firmware makes nothing of it.
-  output_ += "\n";
+  unpacker_in_doubt_ = true;
+  erase_wanted_ = erase_wanted_ || outstanding_.last_is_held();
+  output_ += eraser() + resynchronized(packed("\n"));
   due_ = now + before_question;
+}
+
+void ProtocolEngine::conclude_rejoin(LineNumber wanted, Instant now) {
+  rejoining_ = false;
+  history_.reset(wanted);
+  cursor_ = wanted;
+  acknowledged_next_ = wanted;
+  outstanding_.clear();
+  fruitless_probes_ = 0;
+  // Older lines may still run; their oks are over when this question is answered.
+  sync_wanted_ = true;
+  state_ = EngineState::kDraining;
+  due_ = now + options_.drain_quiet;
+  events_.emplace_back(Rejoined{wanted});
 }
 
 void ProtocolEngine::conclude_probe(LineNumber wanted, Instant now) {
@@ -252,6 +316,11 @@ void ProtocolEngine::conclude_probe(LineNumber wanted, Instant now) {
 void ProtocolEngine::end(EndReason reason, std::string detail) {
   if (state_ == EngineState::kEnded) return;
   state_ = EngineState::kEnded;
+  erase_wanted_ = erase_wanted_ || outstanding_.last_is_held();
+  output_ += eraser();
+  // The next host begins with plain lines.
+  if (packing_ == Packing::kOn) output_ += meatpack::control(meatpack::kDisable);
+  packing_ = Packing::kOff;
   events_.emplace_back(Ended{reason, std::move(detail), acknowledged_next_});
 }
 
@@ -289,13 +358,106 @@ Duration ProtocolEngine::answer_timeout() const {
   return busy_lines_seen_ ? timeouts.busy_firmware : timeouts.silent_firmware;
 }
 
+bool ProtocolEngine::settle_packing(Instant now) {
+  switch (packing_) {
+    case Packing::kOff:
+    case Packing::kOn:
+      return true;
+    case Packing::kOffered:
+      if (!outstanding_.empty()) return true;
+      packing_ = Packing::kAsked;
+      packing_requests_ = 0;
+      packing_due_ = now;
+      [[fallthrough]];
+    case Packing::kAsked:
+      if (now < packing_due_) return false;
+      if (packing_requests_ == options_.meatpack_requests) {
+        // It cannot after all. What it has read instead of commands is a line begun.
+        packing_ = Packing::kOff;
+        output_ += meatpack::control(meatpack::kDisable);
+        start_probe(now, options_.drain_quiet);
+        return false;
+      }
+      ++packing_requests_;
+      packing_due_ = now + options_.meatpack_wait;
+      output_ += meatpack::start(!options_.form.blanks);
+      return false;
+  }
+  return true;
+}
+
+std::string ProtocolEngine::encode(LineNumber number, std::string_view command) const {
+  const bool packs = packing_ == Packing::kOn;
+  const LineFrame frame{options_.form.blanks, packs && !options_.form.blanks};
+  std::string text = wire_form(command, options_.form);
+  if (frame.even_digits) {
+    // The frame puts an odd count of characters before it.
+    std::string packable = packable_form(text, 1);
+    if (packable.size() + kMostFrameBytes <= kMaxLineBytes) text = std::move(packable);
+  }
+  return packed(frame_line(number, text, frame));
+}
+
+std::string ProtocolEngine::packed(std::string bytes) const {
+  return packing_ == Packing::kOn ? meatpack::pack(bytes, !options_.form.blanks) : bytes;
+}
+
+std::string ProtocolEngine::resynchronized(std::string bytes) {
+  const bool in_doubt = std::exchange(unpacker_in_doubt_, false);
+  if (packing_ != Packing::kOn || !in_doubt) return bytes;
+  return meatpack::start(!options_.form.blanks) + bytes;
+}
+
+StarvationCause ProtocolEngine::in_the_way() const {
+  switch (state_) {
+    case EngineState::kDraining:
+    case EngineState::kProbing:
+      return StarvationCause::kRecovery;
+    case EngineState::kStreaming:
+      return all_acknowledged() ? StarvationCause::kSource : StarvationCause::kWire;
+    default:
+      return StarvationCause::kNone;
+  }
+}
+
+void ProtocolEngine::account_for_time(Instant now) {
+  starvation_.advance(now, in_the_way());
+  statistics_.starved = starvation_.total();
+}
+
+bool ProtocolEngine::holds_ends() const {
+  if (!options_.window.hold_ends || packing_ == Packing::kOn || cautious() || !turnaround_) return false;
+  const Duration line_time =
+      options_.baud > 0 ? from_seconds(kUsualLineBytes * 10 / options_.baud) : kUnhurriedAnswer;
+  const bool hungry = starvation_.last_planner_free() ? starvation_.hungry() : answered_at_once();
+  const bool trusted = statistics_.resends == 0;
+  return !hungry || !trusted || *turnaround_ <= line_time;
+}
+
+bool ProtocolEngine::answered_at_once() const {
+  return turnaround_ && last_turnaround_ < 2 * *turnaround_;
+}
+
+void ProtocolEngine::release_end(Instant now) {
+  if (!outstanding_.last_is_held() || outstanding_.lines().size() > 1) return;
+  outstanding_.release_last(now);
+  output_ += '\n';
+  last_progress_ = now;
+}
+
+std::string ProtocolEngine::eraser() {
+  if (!std::exchange(erase_wanted_, false)) return {};
+  return std::string(kMaxLineBytes, '\b') + '\n';
+}
+
 void ProtocolEngine::send_what_fits(Instant now) {
+  release_end(now);
   while (true) {
     if (cursor_ < history_.next()) {
       const NumberedLine& line = history_.at(cursor_);
-      const std::string framed = frame_line(line.number, line.command);
-      if (!fits(framed.size(), line.command)) return;
-      transmit(line, framed, true, now);
+      const std::string encoded = encode(line.number, line.command);
+      if (!fits(encoded.size(), line.command)) return;
+      transmit(line, resynchronized(encoded), true, now);
       continue;
     }
     std::deque<QueuedLine>& queue = injected_.empty() ? job_ : injected_;
@@ -304,14 +466,14 @@ void ProtocolEngine::send_what_fits(Instant now) {
     // one.
     const QueuedLine line =
         sync_wanted_ ? QueuedLine{kReportTemperatures, LineOrigin::kProtocol} : queue.front();
-    const std::string framed = frame_line(cursor_, line.command);
-    if (!fits(framed.size(), line.command)) return;
+    const std::string encoded = encode(cursor_, line.command);
+    if (!fits(encoded.size(), line.command)) return;
     if (sync_wanted_) {
       sync_wanted_ = false;
     } else {
       queue.pop_front();
     }
-    transmit(history_.append(line.command, line.origin), framed, false, now);
+    transmit(history_.append(line.command, line.origin), resynchronized(encoded), false, now);
   }
 }
 
@@ -322,19 +484,23 @@ bool ProtocolEngine::fits(std::size_t bytes, std::string_view command) const {
   // While it runs only the question whether it still does may follow.
   const OutstandingLine& oldest = outstanding_.oldest();
   if (oldest.command_class == CommandClass::kBlocking && !(oldest.accepted && sync_wanted_)) return false;
-  const std::size_t lines = cautious() ? 1 : options_.window.lines;
+  if (outstanding_.last_is_held()) return false;
+  const std::size_t lines = cautious() ? 1 : holds_ends() ? 2 : options_.window.lines;
   return outstanding_.unaccepted_lines() < lines &&
          outstanding_.unaccepted_bytes() + bytes <= options_.window.bytes;
 }
 
-void ProtocolEngine::transmit(const NumberedLine& line, const std::string& framed, bool again, Instant now) {
+void ProtocolEngine::transmit(const NumberedLine& line, const std::string& bytes, bool again, Instant now) {
+  const bool held = !outstanding_.empty() && !outstanding_.oldest().accepted && holds_ends();
   if (outstanding_.empty()) last_progress_ = now;
-  outstanding_.add({line.number, framed.size(), classify(line.command),
-                    command_word(line.command) == kReportTemperatures, false});
-  output_ += framed;
+  outstanding_.add({line.number, bytes.size(), classify(line.command),
+                    command_word(line.command) == kReportTemperatures, false, held, now});
+  output_ += eraser();
+  output_ += held ? bytes.substr(0, bytes.size() - 1) : bytes;
+  statistics_.held_lines += held ? 1 : 0;
   last_sent_ = now;
   cursor_ = line.number + 1;
-  statistics_.bytes_sent += static_cast<LineNumber>(framed.size());
+  statistics_.bytes_sent += static_cast<LineNumber>(bytes.size());
   ++(again ? statistics_.lines_sent_again : statistics_.lines_sent);
   events_.emplace_back(LineSent{line, again});
 }

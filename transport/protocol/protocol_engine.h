@@ -11,6 +11,7 @@
 #include "transport/protocol/line_history.h"
 #include "transport/protocol/outstanding_lines.h"
 #include "transport/protocol/reply.h"
+#include "transport/protocol/starvation.h"
 #include "transport/time.h"
 
 namespace lamina::transport {
@@ -32,6 +33,14 @@ enum class EngineState {
   kEnded
 };
 
+/// Whether lines go out packed.
+enum class Packing {
+  kOff,
+  kOffered,  ///< to be switched on as soon as nothing is on its way
+  kAsked,    ///< the printer is to confirm; nothing else is sent
+  kOn
+};
+
 /// What has happened on the wire so far.
 struct EngineStatistics {
   LineNumber lines_sent = 0;  ///< numbered lines, first time
@@ -41,6 +50,8 @@ struct EngineStatistics {
   LineNumber resends = 0;  ///< requests that made the engine go back
   LineNumber probes = 0;
   LineNumber stray_replies = 0;
+  LineNumber held_lines = 0;  ///< whose ends were held back
+  Starvation starved;         ///< how long the planner was short of moves, and why
 };
 
 /// The host's side of Marlin's serial protocol, without I/O, clock or thread: bytes and the time go in, bytes
@@ -67,6 +78,10 @@ class ProtocolEngine {
 
   /// Begins: waits for `start`, then greets (M110). Only in kIdle.
   void connect(Instant now);
+
+  /// Begins where an earlier host broke off, without a new M110: asks which line is next (see Rejoined). A
+  /// printer that says `start` has forgotten; it is greeted as by `connect`. Only in kIdle.
+  void rejoin(Instant now);
 
   /// Queues a stripped command (see strip_line). It goes out with the next receive or tick that has room for
   /// it. A line that is too long, or that would disturb the numbering (M110), is dropped with a LineRefused.
@@ -113,9 +128,15 @@ class ProtocolEngine {
   /// One line at a time is allowed now, be it after a resend or for good.
   bool cautious() const;
 
+  /// Lines go out packed (MeatPack).
+  bool packs() const { return packing_ == Packing::kOn; }
+
   const EngineStatistics& statistics() const { return statistics_; }
 
  private:
+  static constexpr const char* kRestartedInTheMiddle =
+      "the printer has restarted in the middle of the print; its heaters are off and its position is lost";
+
   struct QueuedLine {
     std::string command;
     LineOrigin origin;
@@ -128,16 +149,40 @@ class ProtocolEngine {
   void handle_unknown_command(const UnknownCommandReply& unknown, Instant now);
   void handle_start(Instant now);
   void handle_wait(Instant now);
+  void handle_capability(const CapabilityReply& capability);
+  void handle_text(const TextReply& text);
 
   void greet(Instant now);
   void go_back_to(LineNumber number, Instant now);
   void start_probe(Instant now, Duration before_question);
   void conclude_probe(LineNumber wanted, Instant now);
+  void conclude_rejoin(LineNumber wanted, Instant now);
   void end(EndReason reason, std::string detail);
+
+  /// Sees to it that lines are packed where they can be. False while nothing else may be sent.
+  bool settle_packing(Instant now);
+  /// The bytes of a line on the wire, packed where that is on.
+  std::string encode(LineNumber number, std::string_view command) const;
+  /// The unpacker may have lost its place: the next bytes begin by setting it right.
+  std::string resynchronized(std::string bytes);
+  std::string packed(std::string bytes) const;
+
+  /// What keeps the printer from having more lines.
+  StarvationCause in_the_way() const;
+  void account_for_time(Instant now);
+
+  /// The last line was acknowledged as fast as the link allows: the planner had room.
+  bool answered_at_once() const;
+  /// The end of the next line is to be held back.
+  bool holds_ends() const;
+  /// Sends the end that was held back, when its time has come.
+  void release_end(Instant now);
+  /// What takes a held line, or what is left of it, out of the printer's line buffer.
+  std::string eraser();
 
   void send_what_fits(Instant now);
   bool fits(std::size_t bytes, std::string_view command) const;
-  void transmit(const NumberedLine& line, const std::string& framed, bool again, Instant now);
+  void transmit(const NumberedLine& line, const std::string& bytes, bool again, Instant now);
   void acknowledge(const OutstandingLine& line);
   void be_cautious();
   void stray(const std::string& text);
@@ -168,6 +213,7 @@ class ProtocolEngine {
   Instant last_progress_{};
   Instant last_sent_{};
   int attempts_ = 0;            ///< greetings or probe questions sent
+  bool rejoining_ = false;      ///< the next probe's answer tells where to begin
   bool question_sent_ = false;  ///< a probe's question, not only its newline
   int fruitless_probes_ = 0;
   std::optional<LineNumber> last_probe_answer_;
@@ -186,6 +232,17 @@ class ProtocolEngine {
   bool busy_lines_seen_ = false;
   bool numbered_oks_seen_ = false;
   bool sync_wanted_ = false;  ///< an M105 is to go out before any new line
+
+  /// From a line's end to its ok: the shortest of all so far, and the last one.
+  std::optional<Duration> turnaround_;
+  Duration last_turnaround_{};
+  StarvationClock starvation_;
+  bool erase_wanted_ = false;  ///< a line without an end may lie in the printer's line buffer
+
+  Packing packing_ = Packing::kOff;
+  int packing_requests_ = 0;
+  Instant packing_due_{};
+  bool unpacker_in_doubt_ = false;
 };
 
 }  // namespace lamina::transport

@@ -38,10 +38,14 @@ void ProtocolEngine::handle(const Reply& reply, Instant now) {
   if (const auto* unknown = std::get_if<UnknownCommandReply>(&reply)) handle_unknown_command(*unknown, now);
   if (std::holds_alternative<StartReply>(reply)) handle_start(now);
   if (std::holds_alternative<WaitReply>(reply)) handle_wait(now);
+  if (const auto* capability = std::get_if<CapabilityReply>(&reply)) handle_capability(*capability);
+  if (const auto* text = std::get_if<TextReply>(&reply)) handle_text(*text);
   if (std::holds_alternative<BusyReply>(reply)) {
     busy_lines_seen_ = true;
     last_progress_ = now;
     if (state_ == EngineState::kProbing) attempts_ = 0;
+    // It prints from its card, or heats for an earlier host; it will get round to the greeting.
+    if (state_ == EngineState::kGreeting) due_ = now + options_.greeting_wait;
   }
   if (const auto* temperatures = std::get_if<TemperatureReport>(&reply)) {
     // Inside M109 and M190 only; automatic reports flow whatever the command queue does.
@@ -94,6 +98,16 @@ void ProtocolEngine::handle_ok(const OkReply& ok, Instant now) {
     stray("ok");
     return;
   }
+  if (state_ == EngineState::kStreaming && !acknowledged.back().held) {
+    last_turnaround_ = now - acknowledged.back().ended;
+    turnaround_ = std::min(turnaround_.value_or(last_turnaround_), last_turnaround_);
+  }
+  if (ok.planner_free) starvation_.planner_free(*ok.planner_free);
+  if (acknowledged.back().command_class == CommandClass::kMotion) {
+    starvation_.move_acknowledged(answered_at_once());
+  } else if (acknowledged.back().command_class == CommandClass::kBlocking) {
+    starvation_.rests();
+  }
   for (const OutstandingLine& line : acknowledged) acknowledge(line);
   last_progress_ = now;
   fruitless_probes_ = 0;
@@ -119,7 +133,7 @@ void ProtocolEngine::handle_resend(const ResendReply& resend, Instant now) {
     case EngineState::kProbing:
       // Believed when the error line says the same, or when it is said twice.
       if (question_sent_ && (consistent || last_probe_answer_ == wanted)) {
-        conclude_probe(wanted, now);
+        rejoining_ ? conclude_rejoin(wanted, now) : conclude_probe(wanted, now);
       } else {
         last_probe_answer_ = wanted;
       }
@@ -177,7 +191,7 @@ void ProtocolEngine::handle_unknown_command(const UnknownCommandReply& unknown, 
     return;
   const bool ours =
       std::any_of(outstanding_.lines().begin(), outstanding_.lines().end(), [&](const OutstandingLine& line) {
-        return line.number && history_.at(*line.number).command == unknown.command;
+        return line.number && wire_form(history_.at(*line.number).command, options_.form) == unknown.command;
       });
   if (ours) return;
   stray(unknown.command);
@@ -188,21 +202,16 @@ void ProtocolEngine::handle_unknown_command(const UnknownCommandReply& unknown, 
 }
 
 void ProtocolEngine::handle_start(Instant now) {
-  switch (state_) {
-    case EngineState::kWaitingForStart:
-      due_ = now + options_.greeting_quiet;
-      return;
-    case EngineState::kGreeting:
-    case EngineState::kSettling:
-      attempts_ = 0;
-      state_ = EngineState::kWaitingForStart;
-      due_ = now + options_.greeting_quiet;
-      return;
-    default:
-      end(EndReason::kRestarted,
-          "the printer has restarted in the middle of the print; its heaters are off and its position is "
-          "lost");
+  const bool lines_ran = state_ == EngineState::kStreaming || state_ == EngineState::kDraining ||
+                         (state_ == EngineState::kProbing && !rejoining_);
+  if (lines_ran) {
+    end(EndReason::kRestarted, kRestartedInTheMiddle);
+    return;
   }
+  rejoining_ = false;
+  attempts_ = 0;
+  state_ = EngineState::kWaitingForStart;
+  due_ = now + options_.greeting_quiet;
 }
 
 void ProtocolEngine::handle_wait(Instant now) {
@@ -210,6 +219,19 @@ void ProtocolEngine::handle_wait(Instant now) {
   const bool lost = state_ == EngineState::kStreaming && !outstanding_.empty() &&
                     now >= last_sent_ + options_.timeouts.probe;
   if (lost) start_probe(now, options_.drain_quiet);
+}
+
+void ProtocolEngine::handle_capability(const CapabilityReply& capability) {
+  if (options_.meatpack && capability.name == "MEATPACK" && capability.present && packing_ == Packing::kOff &&
+      packing_requests_ == 0)
+    packing_ = Packing::kOffered;
+}
+
+void ProtocolEngine::handle_text(const TextReply& text) {
+  // "[MP] PV01 ON NSP"
+  const bool confirmed = packing_ == Packing::kAsked && text.text.starts_with("[MP]") &&
+                         text.text.find(options_.form.blanks ? " ON ESP" : " ON NSP") != std::string::npos;
+  if (confirmed) packing_ = Packing::kOn;
 }
 
 void ProtocolEngine::stray(const std::string& text) {

@@ -1,5 +1,6 @@
 #include "transport/protocol/reply.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <utility>
@@ -214,6 +215,13 @@ std::optional<std::string_view> behind(std::string_view line, std::string_view p
   return line.substr(prefix.size());
 }
 
+/// The first two lines after a start: either may be lost in the noise of it.
+bool is_boot_line(std::string_view line) {
+  constexpr std::array<std::string_view, 6> kBootLines{"start",          "PowerUp",         "External Reset",
+                                                       "Watchdog Reset", "Brown out Reset", "Software Reset"};
+  return std::find(kBootLines.begin(), kBootLines.end(), line) != kBootLines.end();
+}
+
 std::optional<std::string_view> error_text(std::string_view line) {
   if (starts_with_any_case(line, "error:")) return line.substr(6);
   // With the blank: the noise of a bad link makes "!!" of other text easily enough.
@@ -235,7 +243,7 @@ Reply parse_reply(std::string_view line) {
   line = trim(line);
   if (auto ok = parse_ok(line)) return *std::move(ok);
   if (const auto resend = parse_resend(line)) return *resend;
-  if (line == "start") return StartReply{};
+  if (is_boot_line(line)) return StartReply{};
   if (line == "wait") return WaitReply{};
   if (const auto text = error_text(line)) {
     ErrorReply reply = parse_error(*text);

@@ -50,7 +50,7 @@ struct BusyReply {
 /// "wait": alive, and nothing to do.
 struct WaitReply {};
 
-/// "start": the firmware has (re)started.
+/// "start", or the reason that follows it ("PowerUp", "Watchdog Reset"): the firmware has (re)started.
 struct StartReply {};
 
 enum class ErrorClass {

@@ -1,6 +1,7 @@
 #include "transport/session/print_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,12 +10,19 @@
 
 namespace lamina::transport {
 
-PrintJob::PrintJob(LineSource source, PrintJobOptions options)
-    : source_(std::move(source)), options_(std::move(options)), engine_(options_.engine) {}
+namespace {
 
-void PrintJob::start(Instant now) {
-  engine_.connect(now);
+/// How soon an empty source is looked at again.
+constexpr Duration kLookAgain = std::chrono::milliseconds(20);
+
+void keep_earliest(std::optional<Instant>& earliest, std::optional<Instant> candidate) {
+  if (candidate && (!earliest || *candidate < *earliest)) earliest = candidate;
 }
+
+}  // namespace
+
+PrintJob::PrintJob(LineSource source, PrintJobOptions options)
+    : options_(std::move(options)), reader_(std::move(source)), engine_(options_.engine) {}
 
 void PrintJob::receive(std::string_view bytes, Instant now) {
   engine_.receive(bytes, now);
@@ -23,6 +31,8 @@ void PrintJob::receive(std::string_view bytes, Instant now) {
 
 void PrintJob::tick(Instant now) {
   engine_.tick(now);
+  if (progress_.phase == JobPhase::kPaused) cool_down_parked(now);
+  if (progress_.phase == JobPhase::kCancelling) break_waits(now);
   observe(now);
 }
 
@@ -34,34 +44,37 @@ std::vector<Event> PrintJob::take_events() {
   return std::exchange(events_, {});
 }
 
+bool PrintJob::take_discard() {
+  return std::exchange(discard_, false);
+}
+
 std::optional<Instant> PrintJob::deadline() const {
+  if (finished()) return std::nullopt;
   std::optional<Instant> due = engine_.deadline();
-  if (poll_due_ && (!due || *poll_due_ < *due)) due = poll_due_;
-  return finished() ? std::nullopt : due;
-}
-
-void PrintJob::inject(std::string_view command) {
-  if (progress_.phase == JobPhase::kPrinting) engine_.submit(strip_line(command), LineOrigin::kInjected);
-}
-
-void PrintJob::cancel(Instant now) {
-  if (finished() || progress_.phase == JobPhase::kCancelling) return;
-  source_ = [] { return std::nullopt; };
-  if (progress_.phase == JobPhase::kConnecting) {
-    engine_.close("cancelled before the printer answered");
-    progress_.phase = JobPhase::kCancelled;
-    return;
+  keep_earliest(due, poll_due_);
+  keep_earliest(due, look_again_);
+  if (progress_.phase == JobPhase::kCancelling) keep_earliest(due, break_due_);
+  if (progress_.phase == JobPhase::kPaused) {
+    const MachineState& printer = log_.printer();
+    const bool nozzle = std::any_of(printer.nozzles.begin(), printer.nozzles.end(),
+                                    [](const auto& target) { return target.second > 0; });
+    if (nozzle) keep_earliest(due, parked_since_ + options_.park.keep_nozzle_hot);
+    if (printer.bed > 0) keep_earliest(due, parked_since_ + options_.park.keep_bed_hot);
   }
-  progress_.phase = JobPhase::kCancelling;
-  ending_sent_ = false;
-  poll_due_.reset();
-  engine_.drop_queued();
-  const auto& outstanding = engine_.outstanding();
-  const bool waits = std::any_of(outstanding.begin(), outstanding.end(), [](const OutstandingLine& line) {
-    return line.command_class == CommandClass::kBlocking;
-  });
-  if (waits) engine_.send_urgent("M108", now);
-  tick(now);
+  return due;
+}
+
+std::optional<std::string> PrintJob::inject(std::string_view text) {
+  const std::string command = strip_line(text);
+  if (command.empty()) return std::nullopt;
+  const JobPhase phase = progress_.phase;
+  if (phase != JobPhase::kPrinting && phase != JobPhase::kPausing && phase != JobPhase::kPaused &&
+      phase != JobPhase::kReturning)
+    return "the printer takes no commands now";
+  if (phase != JobPhase::kPaused && places(command))
+    return fmt::format("{} would spoil the print; pause it first", command_word(command));
+  engine_.submit(command, LineOrigin::kInjected);
+  return std::nullopt;
 }
 
 bool PrintJob::finished() const {
@@ -74,74 +87,57 @@ void PrintJob::observe(Instant now) {
     std::vector<Event> events = engine_.take_events();
     for (const Event& event : events) observe(event, now);
     events_.insert(events_.end(), events.begin(), events.end());
+    for (const auto& act : std::exchange(deferred_, {})) act(now);
     const bool supplied = !finished() && supply(now);
     if (events.empty() && !supplied) break;
     engine_.tick(now);  // what was submitted may go out at once, and make room for more
   }
   progress_.wire = engine_.statistics();
   progress_.cautious = engine_.cautious();
+  progress_.source_lines = reader_.position().lines;
+  progress_.source_bytes = reader_.position().bytes;
+  progress_.layer = reader_.progress().layer();
+  progress_.layer_count = reader_.progress().layer_count();
+  progress_.time_fraction = reader_.progress().fraction();
+  progress_.seconds_left = reader_.progress().seconds_left();
+  progress_.height = log_.printer().position[2];
+  log_.record().layer = progress_.layer;
 }
 
 void PrintJob::observe(const Event& event, Instant now) {
   if (std::holds_alternative<Connected>(event)) on_connected();
-  if (const auto* sent = std::get_if<LineSent>(&event)) {
-    if (sent->line.origin == LineOrigin::kJob && !sent->again) ++progress_.job_lines_sent;
-  }
+  if (const auto* rejoined = std::get_if<Rejoined>(&event)) on_rejoined(rejoined->next);
+  if (const auto* sent = std::get_if<LineSent>(&event); sent != nullptr && !sent->again) on_sent(sent->line);
   if (const auto* acknowledged = std::get_if<LineAcknowledged>(&event))
     on_acknowledged(acknowledged->line, now);
-  if (const auto* received = std::get_if<ReplyReceived>(&event)) on_reply(received->reply);
+  if (const auto* received = std::get_if<ReplyReceived>(&event)) on_reply(received->reply, now);
   if (const auto* refused = std::get_if<LineRefused>(&event)) {
     // A part without one of its lines is not the part; a mistyped console command is only that.
-    if (refused->origin == LineOrigin::kJob) fail(refused->reason, true);
+    if (refused->origin == LineOrigin::kJob) fail(JobFailure::kLine, refused->reason, true);
   }
   if (const auto* ended = std::get_if<Ended>(&event)) on_ended(*ended);
-}
-
-void PrintJob::on_connected() {
-  progress_.phase = JobPhase::kPrinting;
-  engine_.submit("M115", LineOrigin::kProtocol);
-}
-
-void PrintJob::on_acknowledged(const NumberedLine& line, Instant now) {
-  if (line.origin == LineOrigin::kJob) ++progress_.job_lines_acknowledged;
-  if (options_.temperature_interval == Duration{} || line.origin == LineOrigin::kJob) return;
-  if (progress_.phase != JobPhase::kPrinting) return;
-  if (line.command == "M115") {
-    if (capabilities_["AUTOREPORT_TEMP"]) {
-      engine_.submit(fmt::format("M155 S{}", std::max<std::int64_t>(
-                                                 1, options_.temperature_interval / std::chrono::seconds(1))),
-                     LineOrigin::kProtocol);
-    } else {
-      poll_due_ = now;
-    }
-  }
-  // The next question is asked some time after the last one was answered, so questions never pile up.
-  if (line.command == "M105" && line.origin == LineOrigin::kInjected)
-    poll_due_ = now + options_.temperature_interval;
-}
-
-void PrintJob::on_reply(const Reply& reply) {
-  if (const auto* temperatures = std::get_if<TemperatureReport>(&reply))
-    progress_.temperatures = *temperatures;
-  if (const auto* ok = std::get_if<OkReply>(&reply); ok != nullptr && ok->temperatures) {
-    progress_.temperatures = *ok->temperatures;
-  }
-  if (const auto* capability = std::get_if<CapabilityReply>(&reply))
-    capabilities_[capability->name] = capability->present;
-  if (const auto* firmware = std::get_if<FirmwareReply>(&reply)) firmware_ = *firmware;
-}
-
-void PrintJob::on_ended(const Ended& ended) {
-  if (ended.reason == EndReason::kClosed || finished()) return;
-  fail(fmt::format("{} (line {} of the wire, {} lines of the print acknowledged)", ended.detail, ended.next,
-                   progress_.job_lines_acknowledged),
-       ended.reason != EndReason::kHalted && ended.reason != EndReason::kNotAPrinter);
 }
 
 bool PrintJob::supply(Instant now) {
   switch (progress_.phase) {
     case JobPhase::kPrinting:
-      return ask_temperatures(now) || supply_job_line();
+      return ask_temperatures(now) || supply_job_line(now);
+    case JobPhase::kPausing:
+      return ask_temperatures(now) || supply_parking(now);
+    case JobPhase::kPaused:
+      if (progress_.paused_by == Instigator::kSource && options_.source_level() == SourceLevel::kPlenty) {
+        go_back(now);
+        return true;
+      }
+      look_again_.reset();
+      if (progress_.paused_by == Instigator::kSource) look_again_ = now + kLookAgain;
+      return ask_temperatures(now);
+    case JobPhase::kReturning:
+      // Not before: a host that comes next must be able to begin the way back again.
+      if (!engine_.all_acknowledged()) return false;
+      log_.record().parked_from.reset();
+      set_phase(JobPhase::kPrinting);
+      return true;
     case JobPhase::kFinishing:
     case JobPhase::kCancelling:
       return supply_ending();
@@ -157,53 +153,64 @@ bool PrintJob::ask_temperatures(Instant now) {
   return true;
 }
 
-bool PrintJob::supply_job_line() {
+bool PrintJob::supply_job_line(Instant now) {
   if (!engine_.wants_line()) return false;
-  if (std::optional<std::string> command = next_command()) {
-    engine_.submit(*std::move(command), LineOrigin::kJob);
+  look_again_.reset();
+  if (options_.source_level && options_.source_level() == SourceLevel::kEmpty) {
+    if (!starved_since_) starved_since_ = now;
+    if (now >= *starved_since_ + options_.source_patience && log_.printer().position[2]) {
+      ++progress_.parked_for_source;
+      park(now, Instigator::kSource);
+      return true;
+    }
+    look_again_ = now + kLookAgain;
+    return false;
+  }
+  starved_since_.reset();
+  if (std::optional<SourceCommand> next = reader_.next()) {
+    supplied_.push_back(std::move(next->mark));
+    engine_.submit(std::move(next->command), LineOrigin::kJob);
   } else {
-    progress_.phase = JobPhase::kFinishing;
+    set_phase(JobPhase::kFinishing);
     poll_due_.reset();
   }
   return true;
 }
 
-bool PrintJob::supply_ending() {
-  const bool cancelling = progress_.phase == JobPhase::kCancelling;
-  if (!ending_sent_) {
-    if (!engine_.wants_line()) return false;
-    ending_sent_ = true;
-    if (cancelling) {
-      for (const std::string& command : options_.cancel_commands)
-        engine_.submit(command, LineOrigin::kProtocol);
-    }
-    engine_.submit("M400", LineOrigin::kProtocol);
-    if (capabilities_["AUTOREPORT_TEMP"]) engine_.submit("M155 S0", LineOrigin::kProtocol);
-    return true;
-  }
-  if (engine_.all_acknowledged()) {
-    progress_.phase = cancelling ? JobPhase::kCancelled : JobPhase::kCompleted;
-    engine_.close(cancelling ? "cancelled" : "completed");
-  }
-  return false;
+void PrintJob::skip_object(const std::string& object) {
+  ++revision_;
+  reader_.filter().skip_object(object);
 }
 
-std::optional<std::string> PrintJob::next_command() {
-  while (std::optional<std::string> line = source_()) {
-    ++progress_.source_lines;
-    progress_.source_bytes += static_cast<std::int64_t>(line->size()) + 1;
-    std::string command = strip_line(*line);
-    // The numbering on this wire is ours, and the firmware would see this text anywhere in a line.
-    if (command.empty() || command.find("M110") != std::string::npos) continue;
-    return command;
-  }
-  return std::nullopt;
+void PrintJob::submit_all(const std::vector<std::string>& commands) {
+  for (const std::string& command : commands) engine_.submit(command, LineOrigin::kProtocol);
 }
 
-void PrintJob::fail(std::string why, bool may_listen) {
+void PrintJob::set_phase(JobPhase phase) {
+  progress_.phase = phase;
+  ++revision_;
+}
+
+std::string PrintJob::place() const {
+  const std::optional<double>& height = log_.printer().position[2];
+  std::string text = fmt::format("line {} of the file, {}", log_.source_line(),
+                                 height ? fmt::format("{:.2f} mm high", *height) : "height unknown");
+  if (progress_.layer > 0) text += fmt::format(", layer {}", progress_.layer);
+  return text;
+}
+
+void PrintJob::give_up(JobFailure kind, const std::string& why) {
+  if (failure_kind_ != JobFailure::kNone) return;
+  failure_kind_ = kind;
+  failure_ = why;
+  deferred_.emplace_back([this](Instant then) { cancel(then); });
+}
+
+void PrintJob::fail(JobFailure kind, std::string why, bool may_listen) {
   if (finished()) return;
+  failure_kind_ = kind;
   failure_ = std::move(why);
-  progress_.phase = JobPhase::kFailed;
+  set_phase(JobPhase::kFailed);
   engine_.close(failure_);
   if (may_listen && options_.heaters_off_on_failure) last_words_ = "\nM104 S0\nM140 S0\nM107\n";
 }

@@ -11,6 +11,8 @@ namespace lamina::transport {
 struct PrintResult {
   JobPhase outcome = JobPhase::kFailed;  ///< kCompleted, kCancelled or kFailed
   std::string failure;                   ///< one line; empty unless it failed
+  JobFailure failure_kind = JobFailure::kNone;
+  Instigator cancelled_by = Instigator::kUser;
   JobProgress progress;
   Duration elapsed{};  ///< on the timeline of the print: real, or simulated
 };
