@@ -25,7 +25,7 @@ TEST_CASE("help and version go to stdout, with exit code 0") {
 
   const ProgramRun help = run_lamina(folder, "--help");
   CHECK(help.exit_code == 0);
-  for (const std::string verb : {"slice", "print", "emulate", "contours", "info", "profiles"}) {
+  for (const std::string verb : {"slice", "print", "emulate", "contours", "info", "profiles", "ports", "replay"}) {
     INFO(verb);
     CHECK_THAT(help.out, Contains("\n  " + verb + " "));
     const ProgramRun of_verb = run_lamina(folder, verb + " --help");
@@ -44,11 +44,11 @@ TEST_CASE("wrong usage: exit code, one clear line, nothing on stdout, no file le
       {"slcie part.igs", 2, "error: unknown verb 'slcie'\nhint: did you mean 'slice'?\n"},
       {"help slcie", 2, "error: unknown verb 'slcie'\nhint: did you mean 'slice'?\n"},
       {"--verison", 2, "error: unknown option '--verison'\nhint: did you mean '--version'?\n"},
-      {"slice", 2, "error: lamina slice: MODEL is required\n"},
+      {"slice", 2, "error: a model is missing\nhint: name one or more files\n"},
       {"slice --layr-height 0.3", 2,
        "error: unknown option '--layr-height' of lamina slice\nhint: did you mean '--layer-height'?\n"},
       {"slice " + box + " --layr-height=0.3", 2, "hint: did you mean '--layer-height'?\n"},
-      {"slice " + box + " other.igs", 2, "error: unexpected argument 'other.igs' of lamina slice\n"},
+      {"slice " + box + " other.igs", 3, "error: other.igs: no such file"},
       {"slice " + box + " -o", 2, "error: --output needs FILE\n"},
       {"slice " + box + " --scale two", 2, "error: --scale is 'two': it must be a number\n"},
       {"slice " + box + " --scale 0", 2, "error: --scale is 0: it must be a number above 0\n"},
@@ -71,7 +71,7 @@ TEST_CASE("wrong usage: exit code, one clear line, nothing on stdout, no file le
       {"slice " + box + " --no-center -s adhesion.skirt_distance=30", 6, "does not fit the printer"},
       {"print " + box, 2, "error: lamina print needs --port DEVICE or --emulate\n"},
       {"print " + box + " --port x --emulate", 2, "error: --port and --emulate exclude each other\n"},
-      {"print " + box + " --port x --time-scale 3", 2, "error: --time-scale needs --emulate\n"},
+      {"print " + box + " --emulate --baud 9600", 2, "error: --baud needs --port\n"},
       {"print " + box + " --emulate --time-scale 0", 2, "error: --time-scale must be a number above 0\n"},
       {"print missing.gcode --emulate", 3, "error: cannot read missing.gcode\n"},
       {"print " + box + " --port ./no_such_device", 7, "error: ./no_such_device: No such file or directory"},

@@ -99,6 +99,8 @@ class Program {
     app_.set_version_flag("--version", "lamina " + version, "Show the version");
     app_.footer(std::string(kProgramExamples) + "\n\n" + kExitCodesHelp);
     prepare(app_);
+    // One verb: what comes behind it may be called like another ("lamina sd print").
+    app_.require_subcommand(0, 1);
     for (const Verb& verb : verbs_) {
       CLI::App* const app = app_.add_subcommand(verb.name, verb.summary)->group("Verbs");
       app->footer("Examples:\n" + verb.examples + "\n\n" + kExitCodesHelp);

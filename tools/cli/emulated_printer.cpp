@@ -1,8 +1,11 @@
 #include "tools/cli/emulated_printer.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "gcode/marlin/time_text.h"
+#include "tools/cli/failure.h"
 
 namespace lamina::tools {
 namespace {
@@ -11,7 +14,45 @@ transport::PerAxis per_axis(const gcode::AxisValues& values) {
   return {values.x, values.y, values.z, values.e};
 }
 
+struct FeatureName {
+  const char* name;
+  bool transport::FirmwareFeatures::*feature;
+};
+
+constexpr std::array kFeatures{
+    FeatureName{"advanced-ok", &transport::FirmwareFeatures::advanced_ok},
+    FeatureName{"emergency-parser", &transport::FirmwareFeatures::emergency_parser},
+    FeatureName{"host-actions", &transport::FirmwareFeatures::host_actions},
+    FeatureName{"arcs", &transport::FirmwareFeatures::arcs},
+    FeatureName{"bezier", &transport::FirmwareFeatures::bezier},
+    FeatureName{"auto-report", &transport::FirmwareFeatures::auto_report},
+    FeatureName{"silent-duplicates", &transport::FirmwareFeatures::silent_duplicates},
+    FeatureName{"meatpack", &transport::FirmwareFeatures::meatpack},
+    FeatureName{"sd-card", &transport::FirmwareFeatures::sd_card},
+    FeatureName{"retraction", &transport::FirmwareFeatures::firmware_retraction},
+    FeatureName{"leveling", &transport::FirmwareFeatures::leveling},
+    FeatureName{"filament-change", &transport::FirmwareFeatures::filament_change},
+    FeatureName{"cancel-objects", &transport::FirmwareFeatures::cancel_objects}};
+
 }  // namespace
+
+void switch_feature(transport::FirmwareFeatures& features, const std::string& name) {
+  const bool off = name.starts_with("no-");
+  const std::string wanted = off ? name.substr(3) : name;
+  for (const FeatureName& known : kFeatures) {
+    if (wanted != known.name) continue;
+    features.*known.feature = !off;
+    return;
+  }
+  throw Failure(ExitCode::kUsage,
+                fmt::format("there is no firmware feature '{}'; known: {}", name, firmware_feature_names()));
+}
+
+std::string firmware_feature_names() {
+  std::string names;
+  for (const FeatureName& known : kFeatures) names += (names.empty() ? "" : ", ") + std::string(known.name);
+  return names;
+}
 
 transport::EmulatorOptions emulated_printer(const profiles::Settings& settings) {
   transport::EmulatorOptions options;
@@ -54,6 +95,13 @@ std::string report_text(const transport::PrintReport& report) {
   fault(report.refused_lines, "lines were refused and asked for again");
   fault(report.duplicate_lines, "lines came twice");
   fault(report.bytes_lost, "bytes found the receive buffer full");
+  fault(report.doubled_lines, "numbered lines were run twice");
+  fault(report.skipped_lines, "numbered lines were never run");
+  fault(report.unnumbered_commands, "commands without a number were run in a numbered print");
+  if (report.longest_ooze > std::chrono::seconds(1)) {
+    text += fmt::format("  oozed     for {:.1f} s at most, standing still with a hot nozzle under pressure\n",
+                        transport::to_seconds(report.longest_ooze));
+  }
   return text;
 }
 
@@ -75,7 +123,12 @@ Json to_json(const transport::PrintReport& report) {
           {"unknown_commands", report.unknown_commands},
           {"refused_lines", report.refused_lines},
           {"duplicate_lines", report.duplicate_lines},
-          {"bytes_lost", report.bytes_lost}};
+          {"bytes_lost", report.bytes_lost},
+          {"doubled_lines", report.doubled_lines},
+          {"skipped_lines", report.skipped_lines},
+          {"unnumbered_commands", report.unnumbered_commands},
+          {"unnumbered_moves", report.unnumbered_moves},
+          {"longest_ooze_seconds", transport::to_seconds(report.longest_ooze)}};
 }
 
 }  // namespace lamina::tools

@@ -12,6 +12,7 @@
 #include "profiles/profile_error.h"
 #include "tools/cli/interrupt.h"
 #include "transport/port/port.h"
+#include "transport/session/journal.h"
 
 namespace lamina::tools {
 namespace {
@@ -46,6 +47,8 @@ int report_failure() {
     return say(ExitCode::kProfile, error.what());
   } catch (const gcode::FitError& error) {
     return say(ExitCode::kFit, error.what());
+  } catch (const transport::JournalError& error) {
+    return say(ExitCode::kInput, error.what());
   } catch (const transport::PortError& error) {
     return say(ExitCode::kPort, error.what());
   } catch (const std::bad_alloc&) {

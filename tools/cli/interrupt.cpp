@@ -19,15 +19,23 @@ struct GuardedFile {
 
 // A signal handler reaches nothing but globals.
 std::atomic<bool> deferred{false};
+std::atomic<bool> counted{false};
+std::atomic<int> count{0};
 std::atomic<bool> requested{false};
 std::atomic<int> requested_by{0};
 std::array<GuardedFile, 4> guarded_files;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
+constexpr int kMostCounted = 3;
 constexpr int kSignalBase = 128;
 constexpr std::string_view kLastWords = "\ninterrupted\n";  // The first line end closes a progress bar.
 
 void on_signal(int signal) {
+  if (counted && count < kMostCounted) {
+    count += signal == SIGINT ? 1 : 2;
+    requested_by = signal;
+    return;
+  }
   if (deferred && !requested.exchange(true)) {
     requested_by = signal;
     return;
@@ -57,6 +65,11 @@ void catch_interrupts() {
 const std::atomic<bool>& defer_interrupts() {
   deferred = true;
   return requested;
+}
+
+const std::atomic<int>& count_interrupts() {
+  counted = true;
+  return count;
 }
 
 Interrupted::Interrupted(const std::string& what_was_done)

@@ -16,6 +16,10 @@ void catch_interrupts();
 /// one ends the program.
 const std::atomic<bool>& defer_interrupts();
 
+/// From here on Ctrl-C is only counted, up to the third; the fourth ends the program. SIGTERM and SIGHUP
+/// count as two: nobody is there to be asked.
+const std::atomic<int>& count_interrupts();
+
 /// The deferred signal ended the work.
 class Interrupted : public std::runtime_error {
  public:

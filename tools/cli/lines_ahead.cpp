@@ -1,11 +1,13 @@
 #include "tools/cli/lines_ahead.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lamina::tools {
 namespace {
 
 constexpr std::size_t kBatchesAhead = 8;
+constexpr std::size_t kPlentyAhead = 4;
 
 }  // namespace
 
@@ -18,6 +20,16 @@ LinesAhead::~LinesAhead() {
   }
   changed_.notify_all();
   producer_.join();
+}
+
+transport::SourceLevel LinesAhead::level() {
+  const std::lock_guard lock(mutex_);
+  if (ended_ || batches_.size() >= kPlentyAhead) return transport::SourceLevel::kPlenty;
+  // A batch may be empty: the first layers give no lines before those above are known.
+  const bool lines =
+      next_line_ < batch_.size() ||
+      std::any_of(batches_.begin(), batches_.end(), [](const auto& batch) { return !batch.empty(); });
+  return lines ? transport::SourceLevel::kSome : transport::SourceLevel::kEmpty;
 }
 
 std::optional<std::string> LinesAhead::next() {

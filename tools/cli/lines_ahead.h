@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "transport/session/print_job.h"
+
 namespace lamina::tools {
 
 /// Lines in the batches in which they come about; nothing after the last batch.
@@ -25,6 +27,9 @@ class LinesAhead {
   LinesAhead(const LinesAhead&) = delete;
   LinesAhead& operator=(const LinesAhead&) = delete;
   ~LinesAhead();
+
+  /// How many lines are there without waiting.
+  transport::SourceLevel level();
 
   /// The next line, waiting for it if need be; nothing after the last. Throws what the source threw.
   std::optional<std::string> next();

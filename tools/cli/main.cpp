@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
     const std::vector<std::string> arguments(argv, argv + argc);
     return run_command_line(
         arguments,
-        {slice_verb(), print_verb(), emulate_verb(), contours_verb(), info_verb(), profiles_verb()},
+        {slice_verb(), print_verb(), emulate_verb(), contours_verb(), info_verb(), profiles_verb(),
+         sd_verb(), ports_verb(), replay_verb()},
         LAMINA_VERSION);
   } catch (...) {
     return report_failure();

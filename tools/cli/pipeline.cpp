@@ -10,8 +10,9 @@
 namespace lamina::tools {
 namespace {
 
-constexpr double kSlopeBins = 0.25;  // width of the slope profile's bins in least thicknesses
-constexpr double kNarrowArea = 1.0;  // mm^2: the tips of sharp corners add up to less
+constexpr double kSlopeBins = 0.25;    // width of the slope profile's bins in least thicknesses
+constexpr double kNoticedGap = 0.001;  // mm: less is the rounding of the file
+constexpr double kNarrowArea = 1.0;    // mm^2: the tips of sharp corners add up to less
 
 void append_counted(std::vector<std::string>& warnings, std::size_t count, const std::string& what) {
   if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
@@ -22,12 +23,15 @@ void append_counted(std::vector<std::string>& warnings, std::size_t count, const
 void SlicingFlaws::add(const engine::Layer& layer) {
   const auto widest_of = [&](const std::vector<engine::BridgedGap>& gaps, engine::BridgedGap& widest,
                              double& z) {
+    std::size_t wide = 0;
     for (const engine::BridgedGap& gap : gaps) {
+      if (gap.width() < kNoticedGap) continue;
+      ++wide;
       if (gap.width() <= widest.width()) continue;
       widest = gap;
       z = layer.plane.z;
     }
-    return gaps.size();
+    return wide;
   };
   bridged_gaps += widest_of(layer.report.bridged_gaps, widest_bridge, widest_bridge_z);
   open_gaps += widest_of(layer.report.open_gaps, widest_gap, widest_gap_z);
@@ -40,6 +44,21 @@ ModelGcode::ModelGcode(const PlacedModel& placed, const profiles::Settings& sett
       slicer_(placed.model, layers_.planes, settings.slice),
       stream_(settings.gcode, {placed.bounds, slicer_.layer_count()}) {
   flaws_.missed_faces = layers_.missed_faces;
+  clock_ = settings.slice.clock;
+  if (clock_ == nullptr) return;
+  report_.model = placed.model.name;
+  report_.epsilon = settings.slice.epsilon;
+  report_.layer_thickness = settings.planes.adaptive.enabled ? 0.0 : settings.planes.layer_thickness;
+  report_.patches = patch_figures(placed.model);
+}
+
+std::optional<engine::Layer> ModelGcode::next_layer() {
+  if (clock_ == nullptr) return slicer_.next();
+  const double before = clock_();
+  std::optional<engine::Layer> layer = slicer_.next();
+  report_.seconds += clock_() - before;
+  if (layer) report_.add(*layer);
+  return layer;
 }
 
 std::optional<std::vector<std::string>> ModelGcode::next() {
@@ -48,7 +67,7 @@ std::optional<std::vector<std::string>> ModelGcode::next() {
       step_ = Step::kLayers;
       return stream_.begin();
     case Step::kLayers:
-      if (const std::optional<engine::Layer> layer = slicer_.next()) {
+      if (const std::optional<engine::Layer> layer = next_layer()) {
         ++layers_sliced_;
         flaws_.add(*layer);
         return stream_.push(*layer);

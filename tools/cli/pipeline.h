@@ -10,6 +10,7 @@
 #include "gcode/gcode_stream.h"
 #include "profiles/settings.h"
 #include "tools/cli/placement.h"
+#include "tools/cli/slice_report.h"
 
 namespace lamina::tools {
 
@@ -29,7 +30,8 @@ struct SlicingFlaws {
 };
 
 /// The way from a placed model to G-code, pulled layer by layer: planes -> contours -> toolpaths -> lines.
-/// What it holds does not grow with the number of layers.
+/// What it holds does not grow with the number of layers,
+/// but for a row of figures each where the slicing has a clock.
 class ModelGcode {
  public:
   /// Throws SliceError, FitError, PlanError, TemplateError, Failure.
@@ -43,10 +45,15 @@ class ModelGcode {
   std::size_t layers_sliced() const { return layers_sliced_; }
   const SlicingFlaws& flaws() const { return flaws_; }
 
+  /// What was counted so far, and timed where the slicing has a clock.
+  const SliceReport& report() const { return report_; }
+
   /// Complete when `next` has returned nothing.
   const gcode::PrintTotals& totals() const { return stream_.totals(); }
 
  private:
+  std::optional<engine::Layer> next_layer();
+
   enum class Step { kHeader, kLayers, kDone };
 
   engine::AdaptivePlanes layers_;
@@ -55,6 +62,8 @@ class ModelGcode {
   Step step_ = Step::kHeader;
   std::size_t layers_sliced_ = 0;
   SlicingFlaws flaws_;
+  double (*clock_)() = nullptr;
+  SliceReport report_;
 };
 
 /// The layers of a model of these bounds, even or adaptive. Throws Failure where there are too many.

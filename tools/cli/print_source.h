@@ -1,15 +1,16 @@
 #pragma once
 
 #include <cstddef>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "gcode/marlin/gcode_reader.h"
+#include "gcode/motion/machine_limits.h"
 #include "tools/cli/lines_ahead.h"
 #include "tools/cli/pipeline.h"
+#include "transport/session/print_header.h"
+#include "transport/session/print_job.h"
 
 namespace lamina::tools {
 
@@ -34,6 +35,15 @@ class PrintSource {
   /// Filament that the print draws off the spool, mm. Known when the last line has been given.
   virtual double planned_filament() const = 0;
 
+  /// How many lines are there without waiting.
+  virtual transport::SourceLevel level() { return transport::SourceLevel::kPlenty; }
+
+  /// What a file says of the printer that it is for.
+  virtual transport::PrintHeader header() const { return {}; }
+
+  /// Bytes of a file; -1 otherwise.
+  virtual std::int64_t size() const { return -1; }
+
   /// What to tell the user at the end, one sentence each.
   virtual std::vector<std::string> warnings() const = 0;
 
@@ -44,14 +54,14 @@ class PrintSource {
   std::size_t layer_ = 0;
 };
 
-/// A G-code file. It is read twice: first for its totals, then line by line. Throws Failure when it cannot be
-/// read or holds nothing to print.
+/// A G-code file, or "-" for standard input. It is read once, as it is printed. Throws Failure when it cannot
+/// be read or holds nothing to print.
 std::unique_ptr<PrintSource> make_file_source(const std::string& path, const gcode::MachineLimits& limits);
 
 /// A model, sliced while it is printed.
 std::unique_ptr<PrintSource> make_model_source(std::unique_ptr<ModelGcode> gcode);
 
-/// Whether a path is named like a G-code file.
+/// Whether a path is named like a G-code file, or is standard input.
 bool is_gcode_name(const std::string& path);
 
 }  // namespace lamina::tools

@@ -57,7 +57,8 @@ void ProgressBar::begin(const std::string& phase) {
   }
 }
 
-void ProgressBar::update(double fraction, const std::string& detail) {
+void ProgressBar::update(double fraction, const std::string& detail, std::optional<double> seconds_left) {
+  seconds_left_ = seconds_left;
   fraction_ = std::clamp(fraction, fraction_, 1.0);
   const Clock::time_point now = Clock::now();
   if (quiet_ || now - shown_ < (redraws_ ? Clock::duration(kRedrawInterval) : Clock::duration(kLineInterval)))
@@ -95,6 +96,7 @@ void ProgressBar::draw(const std::string& detail) {
 }
 
 std::string ProgressBar::time_left() const {
+  if (seconds_left_) return gcode::duration_text(*seconds_left_);
   const double elapsed = duration<double>(Clock::now() - begun_).count();
   if (elapsed < kEtaAfter || fraction_ <= 0.0) return {};
   return gcode::duration_text(elapsed * (1.0 - fraction_) / fraction_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace lamina::tools {
@@ -18,8 +19,9 @@ class ProgressBar {
   /// Begins a phase, at 0.
   void begin(const std::string& phase);
 
-  /// `fraction` in [0, 1]; it never goes back. `detail` stands behind the bar.
-  void update(double fraction, const std::string& detail);
+  /// `fraction` in [0, 1]; it never goes back. `detail` stands behind the bar. The time left is guessed from
+  /// the fraction where nobody knows better.
+  void update(double fraction, const std::string& detail, std::optional<double> seconds_left = std::nullopt);
 
   /// Says something in a line of its own, above the bar. Quiet or not.
   void say(const std::string& line);
@@ -38,6 +40,7 @@ class ProgressBar {
   bool drawn_ = false;
   std::string phase_;
   double fraction_ = 0.0;
+  std::optional<double> seconds_left_;
   Clock::time_point begun_;
   Clock::time_point shown_;
 };

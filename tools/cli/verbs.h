@@ -10,5 +10,8 @@ Verb emulate_verb();
 Verb contours_verb();
 Verb info_verb();
 Verb profiles_verb();
+Verb sd_verb();
+Verb ports_verb();
+Verb replay_verb();
 
 }  // namespace lamina::tools
