@@ -41,7 +41,7 @@ struct ContoursArguments {
 };
 
 void declare(OptionSet& options, ContoursArguments& arguments) {
-  options.argument("MODEL", arguments.model, "IGES file (.igs, .iges, also with .gz)");
+  options.argument("MODEL", arguments.model, kModelFiles);
   arguments.slicing.declare(options);
   options.numbers("--at", arguments.heights, "Z,Z,...", "Slice at these heights only, mm");
   options.number("--scale", arguments.scale, "FACTOR", "Scale the model about its origin");

@@ -1,5 +1,6 @@
 #include "tools/cli/pipeline.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -35,6 +36,12 @@ void SlicingFlaws::add(const engine::Layer& layer) {
   };
   bridged_gaps += widest_of(layer.report.bridged_gaps, widest_bridge, widest_bridge_z);
   open_gaps += widest_of(layer.report.open_gaps, widest_gap, widest_gap_z);
+  const bool open = std::any_of(layer.open.begin(), layer.open.end(),
+                                [](const engine::OpenContour& contour) { return !contour.touch; });
+  if (open) {
+    if (open_layers++ == 0) lowest_open_z = layer.plane.z;
+    highest_open_z = layer.plane.z;
+  }
   dropped_length += layer.report.dropped_length;
   empty_layers += layer.closed.empty() && layer.planar.empty() ? 1 : 0;
 }
@@ -98,6 +105,11 @@ std::vector<std::string> slicing_warnings(const SlicingFlaws& flaws) {
   append_counted(warnings, flaws.empty_layers, "layers are empty: the model has no area there");
   append_counted(warnings, flaws.missed_faces,
                  "level faces lie nearer to each other than layer.least_height: layers do not meet them");
+  if (flaws.open_layers > 0) {
+    warnings.push_back(
+        fmt::format("the model is not closed in {} layers between z = {:.3f} and z = {:.3f} mm",
+                    flaws.open_layers, flaws.lowest_open_z, flaws.highest_open_z));
+  }
   const auto append_gaps = [&](std::size_t count, const char* what, const engine::BridgedGap& widest,
                                double z) {
     if (count == 0) return;
@@ -107,8 +119,9 @@ std::vector<std::string> slicing_warnings(const SlicingFlaws& flaws) {
   };
   append_gaps(flaws.bridged_gaps, "gaps in the model were bridged", flaws.widest_bridge,
               flaws.widest_bridge_z);
-  append_gaps(flaws.open_gaps, "gaps are wider than slicing.longest_bridge and stay open", flaws.widest_gap,
-              flaws.widest_gap_z);
+  append_gaps(flaws.open_gaps,
+              "ends of contours stay open, with no end that faces them within slicing.longest_bridge",
+              flaws.widest_gap, flaws.widest_gap_z);
   return warnings;
 }
 

@@ -22,6 +22,9 @@ struct SlicingFlaws {
   std::size_t open_gaps = 0;
   engine::BridgedGap widest_gap;
   double widest_gap_z = 0.0;
+  std::size_t open_layers = 0;  ///< with open contours that are no touch: the model is not closed there
+  double lowest_open_z = 0.0;
+  double highest_open_z = 0.0;
   double dropped_length = 0.0;   ///< of pieces inside the solid, or beyond it where surfaces overlap, mm
   std::size_t empty_layers = 0;  ///< Planes inside the model that meet nothing.
   std::size_t missed_faces = 0;  ///< Level faces that adaptive layers could not meet.
