@@ -11,6 +11,8 @@ namespace {
 
 /// |z component| of the unit normal below which a patch counts as upright.
 constexpr double kUpright = 0.02;
+/// Heights, mm, that differ by less are equal: rounding must neither spoil a monotone direction nor feign one.
+constexpr double kHeightNoise = 1e-11;
 constexpr int kDeepestCell = 60;
 constexpr int kDeepestBisection = 24;
 
@@ -75,8 +77,8 @@ int monotone(const double* net, std::ptrdiff_t step, int count, std::ptrdiff_t s
   for (int l = 0; l < lines; ++l) {
     for (int k = 1; k < count; ++k) {
       const double difference = net[l * stride + k * step] - net[l * stride + (k - 1) * step];
-      rises = rises || difference > 0.0;
-      falls = falls || difference < 0.0;
+      rises = rises || difference > kHeightNoise;
+      falls = falls || difference < -kHeightNoise;
     }
   }
   return rises == falls ? 0 : (rises ? 1 : -1);

@@ -85,6 +85,43 @@ TEST_CASE("a box's section is four nodes, all corners, exact", "[slicing]") {
   }
 }
 
+TEST_CASE("lying cylinders as STEP readers make them, at any height", "[slicing]") {
+  // Three arcs of 120 degrees with weights of one half, one of them across the bottom, where rounding decides
+  // about the signs of differences.
+  const double middle = 2.0 * std::numbers::pi / 3.0;
+  engine::NurbsSurface wall;
+  wall.degree_u = 2;
+  wall.degree_v = 1;
+  for (const double turn : {1.0, 1.0, 1.0, 4.0 / 3.0, 4.0 / 3.0, 5.0 / 3.0, 5.0 / 3.0, 2.0, 2.0, 2.0})
+    wall.knots_u.push_back(3.0 * middle * turn);
+  wall.knots_v = {1.0, 1.0, 4.0, 4.0};
+  wall.net.count_u = 7;
+  wall.net.count_v = 2;
+  const double radius = 5.0;
+  for (int k = 0; k < 7; ++k) {
+    const double angle = 0.5 * std::numbers::pi + 0.5 * middle * k;
+    const double reach = k % 2 == 0 ? radius : 2.0 * radius;
+    for (const double x : {0.0, 3.0}) {
+      wall.net.points.push_back(engine::homogeneous(
+          {x, 12.0 + reach * std::cos(angle), 20.0 + reach * std::sin(angle)}, k % 2 == 0 ? 1.0 : 0.5));
+    }
+  }
+  const engine::Model model = model_of("lying", {wall});
+  engine::SliceOptions options;
+  options.longest_bridge = 0.0;  // the ends are not closed
+  for (double z = 15.01; z < 25.0; z += 0.0137) {
+    const auto [chains, report] = reported_chains_at(model, z, options);
+    CAPTURE(z);
+    REQUIRE(chains.open.size() == 2);
+    const double half_width = std::sqrt(radius * radius - (z - 20.0) * (z - 20.0));
+    for (const NodeChain& chain : chains.open) {
+      for (const ContourNode& node : chain.nodes)
+        CHECK(std::abs(std::abs(node.position.y() - 12.0) - half_width) < 1e-9);
+      CHECK(std::abs(chain.nodes.front().position.x() - chain.nodes.back().position.x()) > 3.0 - 1e-9);
+    }
+  }
+}
+
 TEST_CASE("work follows the contour, not the area of faces nor the number of cells", "[slicing]") {
   const AnalyticModel plate = box({0.0, 0.0, 0.0}, {200.0, 200.0, 1.0});
   engine::SliceOptions options;
