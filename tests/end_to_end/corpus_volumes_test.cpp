@@ -153,3 +153,26 @@ TEST_CASE("section areas of the corpus add up to the volume of the model", "[cor
   }
   CHECK(compared >= 29);
 }
+
+TEST_CASE("a machined part has the same closed sections out of STEP and out of IGES", "[corpus]") {
+  if (!tests::corpus_present()) {
+    WARN("the model corpus is not there: skipped");
+    return;
+  }
+  const engine::Model step = engine::read_model(tests::corpus_file("parts/part_bracket_ap203.stp")).model;
+  const engine::Model iges = engine::read_model(tests::corpus_file("parts/part_bracket_186.igs")).model;
+  std::vector<engine::SlicePlane> planes;
+  for (double z = 0.13; z < 30.0; z += 0.31) planes.push_back({z, z, z});
+  engine::Slicer from_step(step, planes, {});
+  engine::Slicer from_iges(iges, planes, {});
+  while (const auto expected = from_iges.next()) {
+    const auto layer = from_step.next();
+    REQUIRE(layer);
+    CAPTURE(layer->plane.z);
+    CHECK(layer->open.empty());
+    CHECK(expected->open.empty());
+    CHECK(layer->closed.size() == expected->closed.size());
+    const double area = engine::area(gcode::make_region(*expected, {}).region);
+    CHECK(engine::area(gcode::make_region(*layer, {}).region) == Approx(area).epsilon(1e-4));
+  }
+}
