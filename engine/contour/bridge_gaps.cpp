@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "engine/contour/link_arcs.h"
+#include "engine/contour/node_chain.h"
 #include "engine/grid/point_index.h"
 
 namespace lamina::engine {
@@ -20,14 +21,6 @@ constexpr double kLongestLead = 10.0;
 const ContourNode& end_node(const std::vector<NodeChain>& chains, std::uint32_t end) {
   const NodeChain& chain = chains[end / 2];
   return end % 2 == 0 ? chain.nodes.front() : chain.nodes.back();
-}
-
-double chain_length(const NodeChain& chain) {
-  double length = 0.0;
-  for (std::size_t k = 1; k < chain.nodes.size(); ++k) {
-    length += (chain.nodes[k].position - chain.nodes[k - 1].position).norm();
-  }
-  return length;
 }
 
 /// Marks both ends of a bridge; it runs straight across, whatever the tangents of what it joins.
@@ -108,7 +101,7 @@ std::vector<std::uint32_t> nearest_partners(const std::vector<NodeChain>& chains
       if (distance > reach) return;
       if (distance > near && !face_each_other(chains, ends[k], ends[other])) return;
       // A short piece is not bent back into itself.
-      if (ends[k] / 2 == ends[other] / 2 && chain_length(chains[ends[k] / 2]) < 3.0 * distance) return;
+      if (ends[k] / 2 == ends[other] / 2 && length_of(chains[ends[k] / 2]) < 3.0 * distance) return;
       pairs.push_back({distance, ends[k], ends[other]});
     });
   }

@@ -5,25 +5,13 @@
 #include <limits>
 
 #include "engine/contour/link_arcs.h"
+#include "engine/contour/node_chain.h"
 #include "engine/contour/unite_chains.h"
 #include "engine/geometry/polygon.h"
+#include "engine/geometry/segment_distance.h"
 
 namespace lamina::engine {
 namespace {
-
-double squared_distance(const Vector2& point, const Vector2& a, const Vector2& b) {
-  const Vector2 along = b - a;
-  const double length = along.squaredNorm();
-  const double t = length > 0.0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0.0;
-  return (point - a - t * along).squaredNorm();
-}
-
-Loop loop_of(const NodeChain& chain) {
-  Loop loop;
-  loop.reserve(chain.nodes.size());
-  for (const ContourNode& node : chain.nodes) loop.push_back(node.position);
-  return loop;
-}
 
 bool contains(const Loop& loop, const Vector2& p) {
   bool inside = false;

@@ -9,6 +9,7 @@
 #include "engine/contour/bridge_gaps.h"
 #include "engine/contour/in_plane.h"
 #include "engine/contour/link_arcs.h"
+#include "engine/contour/node_chain.h"
 #include "engine/contour/unite_chains.h"
 #include "engine/geometry/polygon.h"
 #include "engine/model.h"
@@ -52,21 +53,9 @@ std::vector<std::vector<std::uint32_t>> groups_of(std::size_t count, const Meeti
   return groups;
 }
 
-double chain_length(const NodeChain& chain) {
-  double length = 0.0;
-  const std::size_t count = chain.nodes.size() - (chain.closed ? 0 : 1);
-  for (std::size_t s = 0; s < count; ++s) {
-    length +=
-        (chain.nodes[s + 1 == chain.nodes.size() ? 0 : s + 1].position - chain.nodes[s].position).norm();
-  }
-  return length;
-}
-
 /// Width of a strip with the outline's area and length, mm.
 double mean_width(const NodeChain& outline) {
-  Loop loop;
-  loop.reserve(outline.nodes.size());
-  for (const ContourNode& node : outline.nodes) loop.push_back(node.position);
+  const Loop loop = loop_of(outline);
   return 2.0 * std::abs(signed_area(loop)) / perimeter(loop);
 }
 
@@ -125,7 +114,7 @@ std::vector<NodeChain> united_chains(std::vector<NodeChain> chains, const SliceO
     for (NodeChain& outline : result.outlines) {
       if (mean_width(outline) < options.chord_part * options.epsilon) {
         ++report.dropped_pieces;
-        report.dropped_length += chain_length(outline);
+        report.dropped_length += length_of(outline);
       } else {
         closed.push_back(std::move(outline));
       }
@@ -154,12 +143,12 @@ LayerChains make_chains(const Section& section, const SliceOptions& options, Mee
   layer.closed = united_chains(std::move(chains), options, meetings, layer.open, report);
   // Crumbs of a surface that ends within the model tolerance of the plane: a touch, if anything.
   std::erase_if(layer.open, [&](const NodeChain& chain) {
-    if (chain_length(chain) > options.epsilon) return false;
+    if (length_of(chain) > options.epsilon) return false;
     in_plane.touch_points.push_back(chain.nodes[chain.nodes.size() / 2].position);
     return true;
   });
   for (NodeChain& touch : in_plane.touch_curves) {
-    if (chain_length(touch) <= options.epsilon) {
+    if (length_of(touch) <= options.epsilon) {
       in_plane.touch_points.push_back(touch.nodes[touch.nodes.size() / 2].position);
     } else if (runs_along(touch, layer.closed, options.epsilon) ||
                runs_along(touch, layer.open, options.epsilon)) {

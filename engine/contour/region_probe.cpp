@@ -4,17 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/geometry/segment_distance.h"
+
 namespace lamina::engine {
-namespace {
-
-double distance_to_segment(const Vector2& p, const Vector2& a, const Vector2& b) {
-  const Vector2 along = b - a;
-  const double t = std::clamp((p - a).dot(along) / std::max(along.squaredNorm(), 1e-300), 0.0, 1.0);
-  return (a + t * along - p).norm();
-}
-
-}  // namespace
-
 RegionProbe::RegionProbe(const std::vector<NodeChain>& chains) {
   double high = -std::numeric_limits<double>::infinity();
   low_ = -high;
@@ -59,7 +51,7 @@ double RegionProbe::distance(const Vector2& point) const {
   const std::size_t home = bucket_of(point.y());
   const auto visit = [&](std::size_t bucket) {
     for (const std::uint32_t s : buckets_[bucket])
-      best = std::min(best, distance_to_segment(point, segments_[s].a, segments_[s].b));
+      best = std::min(best, std::sqrt(squared_distance(point, segments_[s].a, segments_[s].b)));
   };
   // Outwards from the point's own bucket until no bucket can hold anything nearer.
   for (std::size_t reach = 0; reach < buckets_.size(); ++reach) {

@@ -6,22 +6,12 @@
 #include <utility>
 
 #include "engine/contour/link_arcs.h"
+#include "engine/contour/node_chain.h"
 #include "engine/contour/region_probe.h"
 #include "engine/contour/unite_chains.h"
 #include "engine/geometry/polygon.h"
 
 namespace lamina::engine {
-namespace {
-
-Loop loop_of(const NodeChain& chain) {
-  Loop loop;
-  loop.reserve(chain.nodes.size());
-  for (const ContourNode& node : chain.nodes) loop.push_back(node.position);
-  return loop;
-}
-
-}  // namespace
-
 std::vector<NodeChain> turned_by_parity(std::vector<NodeChain> chains) {
   std::vector<RegionProbe> probes;
   probes.reserve(chains.size());

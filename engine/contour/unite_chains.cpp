@@ -8,7 +8,9 @@
 
 #include "engine/contour/chain_orientation.h"
 #include "engine/contour/link_arcs.h"
+#include "engine/contour/node_chain.h"
 #include "engine/contour/planar_faces.h"
+#include "engine/contour/region_probe.h"
 #include "engine/contour/segment_curve.h"
 
 namespace lamina::engine {
@@ -129,21 +131,6 @@ std::vector<std::vector<std::uint32_t>> outline_walks(const PlanarGraph& graph, 
   return walks;
 }
 
-bool inside(const std::vector<NodeChain>& outlines, const Vector2& p) {
-  bool result = false;
-  for (const NodeChain& chain : outlines) {
-    for (std::size_t i = 0, j = chain.nodes.size() - 1; i < chain.nodes.size(); j = i++) {
-      const Vector2& a = chain.nodes[i].position;
-      const Vector2& b = chain.nodes[j].position;
-      if ((a.y() > p.y()) != (b.y() > p.y()) &&
-          p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-        result = !result;
-      }
-    }
-  }
-  return result;
-}
-
 /// Dead ends, and edges that lead from one closed walk to another through one and the same face.
 bool bounds_nothing(const PlanarFaces& faces, std::uint32_t edge) {
   return faces.dangling[edge] || faces.face[2 * edge] == faces.face[2 * edge + 1];
@@ -203,14 +190,6 @@ std::vector<NodeChain> unbounding_pieces(const std::vector<NodeChain>& chains, c
   return pieces;
 }
 
-double piece_length(const NodeChain& chain) {
-  double length = 0.0;
-  for (std::size_t k = 1; k < chain.nodes.size(); ++k) {
-    length += (chain.nodes[k].position - chain.nodes[k - 1].position).norm();
-  }
-  return length;
-}
-
 std::vector<NodeChain> outlines_of(const std::vector<NodeChain>& chains, const PlanarGraph& graph,
                                    const PlanarFaces& faces, const std::vector<bool>& filled) {
   std::vector<NodeChain> outlines;
@@ -244,11 +223,12 @@ UnitedChains unite_chains(const std::vector<NodeChain>& chains, double shortest_
   filled.reserve(winding.size());
   for (const int cover : winding) filled.push_back(cover != 0);
   result.outlines = outlines_of(chains, graph, faces, filled);
+  const RegionProbe solid(result.outlines);
   for (NodeChain& piece : unbounding_pieces(chains, graph, faces)) {
-    const double length = piece_length(piece);
+    const double length = length_of(piece);
     const Vector2 middle = piece.nodes[piece.nodes.size() / 2].position;
     const Vector2 before = piece.nodes[(piece.nodes.size() - 1) / 2].position;
-    if (length < shortest_open || inside(result.outlines, 0.5 * (middle + before))) {
+    if (length < shortest_open || solid.contains(0.5 * (middle + before))) {
       ++result.dropped_pieces;
       result.dropped_length += length;
     } else {

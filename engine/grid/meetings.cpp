@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "engine/geometry/segment_distance.h"
 #include "engine/grid/cell_walk.h"
 
 namespace lamina::engine {
@@ -41,13 +42,6 @@ void draw(const NodeChain& chain, double epsilon, Enter enter) {
 
 double cross(const Vector2& a, const Vector2& b) {
   return a.x() * b.y() - a.y() * b.x();
-}
-
-double squared_distance(const Vector2& point, const Vector2& a, const Vector2& b) {
-  const Vector2 along = b - a;
-  const double length = along.squaredNorm();
-  const double t = length > 0.0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0.0;
-  return (point - a - t * along).squaredNorm();
 }
 
 bool segments_meet(const Vector2& a, const Vector2& b, const Vector2& c, const Vector2& d, double tolerance) {

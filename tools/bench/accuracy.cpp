@@ -23,6 +23,7 @@
 #include "tools/bench/corpus_models.h"
 #include "tools/bench/damage.h"
 #include "tools/bench/dissertation_models.h"
+#include "tools/bench/measurement.h"
 #include "tools/bench/surface_distance.h"
 #include "tools/bench/true_section.h"
 
@@ -354,10 +355,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 1;
-  }
+  return lamina::tools::run_measurement(run, argc, argv);
 }

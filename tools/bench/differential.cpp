@@ -23,6 +23,7 @@
 #include "tests/reference/as_engine_layer.h"
 #include "tests/reference/reference_slicer.h"
 #include "tools/bench/contour_kinds.h"
+#include "tools/bench/measurement.h"
 #include "tools/bench/random_solids.h"
 #include "tools/bench/true_union.h"
 
@@ -287,10 +288,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 1;
-  }
+  return lamina::tools::run_measurement(run, argc, argv);
 }

@@ -14,6 +14,7 @@
 #include "engine/import/read_model.h"
 #include "tools/bench/corpus_models.h"
 #include "tools/bench/dissertation_models.h"
+#include "tools/bench/measurement.h"
 #include "tools/bench/patch_evaluation.h"
 #include "tools/bench/slice_run.h"
 
@@ -113,10 +114,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 1;
-  }
+  return lamina::tools::run_measurement(run, argc, argv);
 }

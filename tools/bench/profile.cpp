@@ -18,6 +18,7 @@
 #include "tools/bench/allocation_meter.h"
 #include "tools/bench/chart.h"
 #include "tools/bench/corpus_models.h"
+#include "tools/bench/measurement.h"
 #include "tools/cli/slice_report.h"
 
 namespace {
@@ -162,10 +163,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 1;
-  }
+  return lamina::tools::run_measurement(run, argc, argv);
 }

@@ -14,6 +14,7 @@
 #include "engine/import/read_model.h"
 #include "engine/model_bounds.h"
 #include "tools/bench/corpus_models.h"
+#include "tools/bench/measurement.h"
 #include "tools/bench/slice_run.h"
 
 namespace {
@@ -143,10 +144,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 1;
-  }
+  return lamina::tools::run_measurement(run, argc, argv);
 }

@@ -15,6 +15,7 @@
 #include "engine/slicer.h"
 #include "tools/bench/corpus_models.h"
 #include "tools/bench/layer_bytes.h"
+#include "tools/bench/measurement.h"
 #include "tools/bench/slice_run.h"
 
 namespace {
@@ -104,10 +105,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 1;
-  }
+  return lamina::tools::run_measurement(run, argc, argv);
 }

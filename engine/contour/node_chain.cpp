@@ -1,0 +1,21 @@
+#include "engine/contour/node_chain.h"
+
+namespace lamina::engine {
+
+Loop loop_of(const NodeChain& chain) {
+  Loop loop;
+  loop.reserve(chain.nodes.size());
+  for (const ContourNode& node : chain.nodes) loop.push_back(node.position);
+  return loop;
+}
+
+double length_of(const NodeChain& chain) {
+  double length = 0.0;
+  for (std::size_t k = 1; k < chain.nodes.size(); ++k) {
+    length += (chain.nodes[k].position - chain.nodes[k - 1].position).norm();
+  }
+  if (chain.closed) length += (chain.nodes.front().position - chain.nodes.back().position).norm();
+  return length;
+}
+
+}  // namespace lamina::engine
