@@ -82,9 +82,10 @@ bool face_each_other(const std::vector<NodeChain>& chains, std::uint32_t a, std:
   return onwards(chains, a).dot(across) >= 0.0 && onwards(chains, b).dot(across) <= 0.0;
 }
 
-/// Pairs of free ends, the nearest first, each end once; those farther apart than `near` only where they face
-/// each other.
-std::vector<std::uint32_t> nearest_partners(const std::vector<NodeChain>& chains, double near, double reach) {
+/// Pairs of free ends at most `reach` apart, the nearest first, each end once; those farther apart than
+/// `any_way` only where they face each other.
+std::vector<std::uint32_t> nearest_partners(const std::vector<NodeChain>& chains, double any_way,
+                                            double reach) {
   std::vector<std::uint32_t> partner(2 * chains.size(), kNone);
   PointIndex index(reach);
   std::vector<std::uint32_t> ends;
@@ -99,7 +100,7 @@ std::vector<std::uint32_t> nearest_partners(const std::vector<NodeChain>& chains
       if (other <= k) return;
       const double distance = (index.point(other) - index.point(k)).norm();
       if (distance > reach) return;
-      if (distance > near && !face_each_other(chains, ends[k], ends[other])) return;
+      if (distance > any_way && !face_each_other(chains, ends[k], ends[other])) return;
       // A short piece is not bent back into itself.
       if (ends[k] / 2 == ends[other] / 2 && length_of(chains[ends[k] / 2]) < 3.0 * distance) return;
       pairs.push_back({distance, ends[k], ends[other]});
@@ -227,18 +228,20 @@ void report_open(const std::vector<NodeChain>& chains, LayerReport& report) {
 
 std::vector<NodeChain> bridge_gaps(std::vector<NodeChain> chains, const BridgeOptions& options,
                                    LayerReport& report) {
-  const auto bridge = [&](double reach) {
-    const std::vector<std::uint32_t> partner = nearest_partners(chains, options.epsilon, reach);
+  const auto bridge = [&](double any_way, double reach) {
+    const std::vector<std::uint32_t> partner = nearest_partners(chains, any_way, reach);
     report_bridges(chains, partner, options.joined, report);
     chains = joined_chains(std::move(chains), partner, options.joined);
   };
   if (open_count(chains) == 0) return chains;
-  bridge(options.epsilon);
+  bridge(options.epsilon, options.epsilon);
   if (open_count(chains) == 0) return chains;
   lead_to_chains(chains, options.epsilon, report);
-  bridge(options.longest_bridge);
+  bridge(options.epsilon, options.longest_bridge);
   if (open_count(chains) == 0) return chains;
   lead_to_chains(chains, std::min(options.longest_bridge, kLongestLead * options.epsilon), report);
+  // Ends that pass each other sideways: a short bridge beats a contour that bounds nothing.
+  bridge(options.longest_bridge, options.longest_bridge);
   report_open(chains, report);
   return chains;
 }

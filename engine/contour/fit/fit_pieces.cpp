@@ -14,11 +14,13 @@ PieceFit fit_pieces(const NodeChain& chain, const PieceFitOptions& options) {
   PieceFit result;
   result.curve.closed = chain.closed;
   std::vector<CurvePiece>& pieces = result.curve.pieces;
+  std::optional<SplineHint> hint;
   for (SmoothChain& smooth : smooth_chains(chain, options.corner_angle)) {
     const RunCover cover = recognise_runs(std::move(smooth), options.recognition_tolerance);
     for (const Run& run : cover.runs) {
       if (run.shape == RunShape::kFree) {
-        SplineFit fit = fit_splines(sub_chain(cover.chain, run.first, run.last), spline_options);
+        SplineFit fit = fit_splines(sub_chain(cover.chain, run.first, run.last), spline_options, hint);
+        hint = fit.hint;
         result.greatest_distance = std::max(result.greatest_distance, fit.greatest_distance);
         std::move(fit.curves.begin(), fit.curves.end(), std::back_inserter(pieces));
       } else {

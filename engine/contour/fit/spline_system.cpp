@@ -37,25 +37,32 @@ void SplineSystem::assemble(const PlanarCurve& curve, const std::vector<FitSampl
   right_.assign(2 * controls, 0.0);
   windows_.resize(samples.size());
 
-  std::array<std::array<double, 3>, kCount*(kCount + 1) / 2>
-      blocks{};  // of the span: xx, xy, yy of each pair
-  std::array<double, 2 * kCount> sides{};
+  // Of the span: each pair of basis functions, lower triangle column by column.
+  using Pairs = std::array<double, kCount*(kCount + 1) / 2>;
+  Pairs block_xx{};
+  Pairs block_xy{};
+  Pairs block_yy{};
+  std::array<double, kCount> side_x{};
+  std::array<double, kCount> side_y{};
   const auto flush = [&](std::size_t first) {
     std::size_t pair = 0;
-    for (std::size_t i = 0; i < kCount; ++i) {
-      for (std::size_t j = 0; j <= i; ++j, ++pair) {
-        const std::size_t row = 2 * (first + i);
-        const std::size_t column = 2 * (first + j);
-        matrix_.at(row, column) += blocks[pair][0];
-        matrix_.at(row + 1, column) += blocks[pair][1];
-        if (j < i) matrix_.at(row, column + 1) += blocks[pair][1];
-        matrix_.at(row + 1, column + 1) += blocks[pair][2];
+    for (std::size_t j = 0; j < kCount; ++j) {
+      double* const column_x = &matrix_.at(2 * (first + j), 2 * (first + j));
+      double* const column_y = &matrix_.at(2 * (first + j) + 1, 2 * (first + j) + 1);
+      for (std::size_t below = 0; below < kCount - j; ++below, ++pair) {
+        column_x[2 * below] += block_xx[pair];
+        column_x[2 * below + 1] += block_xy[pair];
+        if (below > 0) column_y[2 * below - 1] += block_xy[pair];
+        column_y[2 * below] += block_yy[pair];
       }
-      right_[2 * (first + i)] += sides[2 * i];
-      right_[2 * (first + i) + 1] += sides[2 * i + 1];
+      right_[2 * (first + j)] += side_x[j];
+      right_[2 * (first + j) + 1] += side_y[j];
     }
-    blocks = {};
-    sides = {};
+    block_xx = {};
+    block_xy = {};
+    block_yy = {};
+    side_x = {};
+    side_y = {};
   };
 
   std::size_t span = kCount - 1;
@@ -77,16 +84,19 @@ void SplineSystem::assemble(const PlanarCurve& curve, const std::vector<FitSampl
     const double yy = 1.0 - (1.0 - kAlongWeight) * y * y;
     const double right_x = xx * sample.position.x() + xy * sample.position.y();
     const double right_y = xy * sample.position.x() + yy * sample.position.y();
+    Pairs products;
     std::size_t pair = 0;
-    for (std::size_t i = 0; i < kCount; ++i) {
-      for (std::size_t j = 0; j <= i; ++j, ++pair) {
-        const double product = value[i] * value[j];
-        blocks[pair][0] += product * xx;
-        blocks[pair][1] += product * xy;
-        blocks[pair][2] += product * yy;
-      }
-      sides[2 * i] += value[i] * right_x;
-      sides[2 * i + 1] += value[i] * right_y;
+    for (std::size_t j = 0; j < kCount; ++j) {
+      for (std::size_t i = j; i < kCount; ++i, ++pair) products[pair] = value[i] * value[j];
+    }
+    for (std::size_t j = 0; j < kCount; ++j) {
+      side_x[j] += value[j] * right_x;
+      side_y[j] += value[j] * right_y;
+    }
+    for (pair = 0; pair < products.size(); ++pair) {
+      block_xx[pair] += products[pair] * xx;
+      block_xy[pair] += products[pair] * xy;
+      block_yy[pair] += products[pair] * yy;
     }
   }
   flush(span + 1 - kCount);
