@@ -42,7 +42,7 @@ LayerChains LayerMaker::chains(const FrontState& front, double z, LayerReport& r
   for (const auto& patch : front.patches) {
     const SectionMark mark = mark_of(section_);
     patch_section_.cut(*patch, z, section_);
-    if (patch->trim != nullptr) trim_section(section_, mark, *patch, z);
+    if (patch->trim() != nullptr) trim_section(section_, mark, *patch, z);
   }
   for (const auto& region : front.regions) {
     add_trim_edges(section_, *region, z, options_.chord_part * options_.epsilon);
@@ -78,8 +78,8 @@ LayerChains LayerMaker::slab_chains(const FrontState& front, const SlicePlane& p
   const double high = plane.top - kInside;
   std::vector<double> heights{low, high};
   for (const auto& patch : front.patches) {
-    if (patch->z_max - patch->z_min > kModelTolerance) continue;
-    for (const double z : {patch->z_min - kInside, patch->z_max + kInside}) {
+    if (patch->span.z_max - patch->span.z_min > kModelTolerance) continue;
+    for (const double z : {patch->span.z_min - kInside, patch->span.z_max + kInside}) {
       if (z > low && z < high) heights.push_back(z);
     }
   }

@@ -13,8 +13,9 @@ namespace lamina::engine {
 namespace {
 
 constexpr std::uint32_t kNone = PointIndex::kNone;
-/// Ends are led to the middle of another chain over this many epsilon at most: a fin that points at a wall
-/// from afar is none of its business.
+/// Ends are led to the middle of another chain, and to an end that they pass sideways, over this many epsilon
+/// at most: a fin that points at a wall from afar, or a wall that overshoots its corner, is none of their
+/// business.
 constexpr double kLongestLead = 10.0;
 
 /// End 2c is the front of chain c, end 2c + 1 its back.
@@ -239,9 +240,9 @@ std::vector<NodeChain> bridge_gaps(std::vector<NodeChain> chains, const BridgeOp
   lead_to_chains(chains, options.epsilon, report);
   bridge(options.epsilon, options.longest_bridge);
   if (open_count(chains) == 0) return chains;
-  lead_to_chains(chains, std::min(options.longest_bridge, kLongestLead * options.epsilon), report);
-  // Ends that pass each other sideways: a short bridge beats a contour that bounds nothing.
-  bridge(options.longest_bridge, options.longest_bridge);
+  const double lead = std::min(options.longest_bridge, kLongestLead * options.epsilon);
+  lead_to_chains(chains, lead, report);
+  bridge(lead, lead);
   report_open(chains, report);
   return chains;
 }

@@ -15,7 +15,7 @@ struct BridgeOptions {
 
 /// Closes open chains: free ends are joined straight across, the narrowest gap first, up to epsilon; then
 /// ends that stop short of the middle of another chain are led to it; then both once more with wider gaps, up
-/// to the limit. What was bridged, and what stayed open, is reported with its place.
+/// to the limit, the ends facing each other; last, over a few epsilon, ends that pass each other sideways. What was bridged, and what stayed open, is reported with its place.
 std::vector<NodeChain> bridge_gaps(std::vector<NodeChain> chains, const BridgeOptions& options,
                                    LayerReport& report);
 

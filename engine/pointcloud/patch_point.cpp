@@ -22,8 +22,9 @@ struct Blend {
     const std::ptrdiff_t step = held_u ? patch.degree_v + 1 : 1;
     const std::ptrdiff_t stride = held_u ? 1 : patch.degree_v + 1;
     const BernsteinPair basis(held_degree, at);
+    const Vector4* const points = patch.points().data();
     for (int k = 0; k <= degree; ++k) {
-      const Vector4* point = patch.points.data() + k * stride;
+      const Vector4* point = points + k * stride;
       Vector4 sum = basis.value[0] * *point;
       Vector4 slope = basis.derivative[0] * *point;
       for (int l = 1; l <= held_degree; ++l) {

@@ -53,6 +53,9 @@ struct EdgePoint {
   Vector2 position;
   Vector2 derivative;
   double normal_z = 0.0;  ///< |z component| of the unit normal; 0 where the patch has none
+
+  /// Whether the patch stands upright here, to about a degree.
+  bool upright() const { return normal_z < 0.02; }
 };
 
 EdgePoint point_on_line(const FrontPatch& patch, Direction held, double at, double parameter);

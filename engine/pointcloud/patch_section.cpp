@@ -5,54 +5,20 @@
 #include <cmath>
 
 #include "engine/model.h"
+#include "engine/pointcloud/arc_nodes.h"
+#include "engine/pointcloud/height_net.h"
 
 namespace lamina::engine {
 namespace {
 
-/// |z component| of the unit normal below which a patch counts as upright.
-constexpr double kUpright = 0.02;
-/// Heights, mm, that differ by less are equal: rounding must neither spoil a monotone direction nor feign one.
-constexpr double kHeightNoise = 1e-11;
 constexpr int kDeepestCell = 60;
-constexpr int kDeepestBisection = 24;
-
-/// Changes of sign along `count` numbers, a zero counting as positive.
-int sign_changes(const double* values, std::ptrdiff_t stride, int count) {
-  int changes = 0;
-  for (int k = 1; k < count; ++k) {
-    changes += (values[k * stride] < 0.0) != (values[(k - 1) * stride] < 0.0) ? 1 : 0;
-  }
-  return changes;
-}
-
-bool all_zero(const double* values, std::ptrdiff_t stride, int count) {
-  for (int k = 0; k < count; ++k) {
-    if (values[k * stride] != 0.0) return false;
-  }
-  return true;
-}
-
-bool within(const double* values, std::ptrdiff_t stride, int count, double tolerance) {
-  for (int k = 0; k < count; ++k) {
-    if (std::abs(values[k * stride]) > tolerance) return false;
-  }
-  return true;
-}
-
-/// de Casteljau at 1/2 along one line of numbers.
-void halve_line(const double* net, double* low, double* high, std::ptrdiff_t stride, int count) {
-  for (int k = 0; k < count; ++k) low[k * stride] = net[k * stride];
-  for (int level = 0; level < count; ++level) {
-    high[(count - 1 - level) * stride] = low[(count - 1) * stride];
-    for (int k = count - 1; k > level; --k) low[k * stride] = 0.5 * (low[k * stride] + low[(k - 1) * stride]);
-  }
-}
 
 /// Longest polygon along each direction of the net.
 std::pair<double, double> net_size(const FrontPatch& patch) {
+  const std::vector<Vector4>& points = patch.points();
   const int order_v = patch.degree_v + 1;
   const auto at = [&](int i, int j) {
-    const Vector4& p = patch.points[static_cast<std::size_t>(i * order_v + j)];
+    const Vector4& p = points[static_cast<std::size_t>(i * order_v + j)];
     return Vector3(p.head<3>() / p.w());
   };
   double size_u = 0.0;
@@ -70,38 +36,25 @@ std::pair<double, double> net_size(const FrontPatch& patch) {
   return {size_u, size_v};
 }
 
-/// Monotone along one direction: 1 rising, -1 falling, 0 neither.
-int monotone(const double* net, std::ptrdiff_t step, int count, std::ptrdiff_t stride, int lines) {
-  bool rises = false;
-  bool falls = false;
-  for (int l = 0; l < lines; ++l) {
-    for (int k = 1; k < count; ++k) {
-      const double difference = net[l * stride + k * step] - net[l * stride + (k - 1) * step];
-      rises = rises || difference > kHeightNoise;
-      falls = falls || difference < -kHeightNoise;
-    }
-  }
-  return rises == falls ? 0 : (rises ? 1 : -1);
-}
-
 }  // namespace
 
 void PatchSection::cut(const FrontPatch& patch, double z, Section& section) {
   patch_ = &patch;
   section_ = &section;
   z_ = z;
-  const auto size = patch.points.size();
+  const std::vector<Vector4>& points = patch.points();
+  const std::size_t size = points.size();
   // Two children on the stack at each depth.
   const std::size_t needed = size * 2 * (kDeepestCell + 2);
   if (nets_.size() < needed) nets_.resize(needed);
   double* net = nets_.data();
-  for (std::size_t k = 0; k < size; ++k) net[k] = patch.points[k].z() - z * patch.points[k].w();
+  for (std::size_t k = 0; k < size; ++k) net[k] = points[k].z() - z * points[k].w();
   size_u_ = -1.0;  // found when a cell has to be divided
   // A vertex in the plane is exactly so for every patch around it.
   const int order_v = patch.degree_v + 1;
   const auto corner = [&](int i, int j) {
     const auto index = static_cast<std::size_t>(i * order_v + j);
-    if (std::abs(net[index]) <= kModelTolerance * patch.points[index].w()) net[index] = 0.0;
+    if (std::abs(net[index]) <= kModelTolerance * points[index].w()) net[index] = 0.0;
   };
   corner(0, 0);
   corner(0, patch.degree_v);
@@ -115,7 +68,7 @@ bool PatchSection::snap_edges(double* net) const {
   const int order_v = patch_->degree_v + 1;
   const double tolerance = kModelTolerance;
   const auto snap = [&](double* first, std::ptrdiff_t stride, int count) {
-    if (!within(first, stride, count, tolerance)) return false;
+    if (!all_within(first, stride, count, tolerance)) return false;
     for (int k = 0; k < count; ++k) first[k * stride] = 0.0;
     return true;
   };
@@ -200,41 +153,6 @@ void PatchSection::halve(const double* net, const Rectangle& r, double* free, in
   }
 }
 
-bool PatchSection::chord_holds(const Vector2& a, const Vector2& tangent_a, const Vector2& b,
-                               const Vector2& tangent_b) const {
-  const Vector2 chord = b - a;
-  const double length_squared = chord.squaredNorm();
-  const double tolerance = options_.chord_tolerance;
-  if (length_squared <= 1e-2 * tolerance * tolerance) return true;
-  const auto sideways = [&](const Vector2& tangent) {
-    return std::abs(chord.x() * tangent.y() - chord.y() * tangent.x());
-  };
-  if (!(chord.dot(tangent_a) > 0.0) || !(chord.dot(tangent_b) > 0.0)) {
-    return length_squared <= tolerance * tolerance;
-  }
-  // A cubic that leaves its chord of length L at the angles a and b is at most 4/27 L (tan a + tan b) from
-  // it; a circle 1/8 of that product.
-  return 0.15 * (sideways(tangent_a) + sideways(tangent_b)) <= tolerance;
-}
-
-void PatchSection::finish_arc(SectionArc& arc) const {
-  arc.count = static_cast<std::uint32_t>(section_->nodes.size()) - arc.first;
-}
-
-void PatchSection::bisect_arc(const LineCrossing& solved, double from, const CrossingPoint& start, double to,
-                              const CrossingPoint& end, int forced, int depth) {
-  if (depth == kDeepestBisection || (forced <= 0 && chord_holds(start.node.position, start.node.tangent,
-                                                                end.node.position, end.node.tangent))) {
-    return;
-  }
-  LineCrossing line = solved;
-  line.at = 0.5 * (from + to);
-  const CrossingPoint middle = crossing_on_line(*patch_, z_, line);
-  bisect_arc(solved, from, start, line.at, middle, forced - 1, depth + 1);
-  section_->nodes.push_back(middle.node);
-  bisect_arc(solved, line.at, middle, to, end, forced - 1, depth + 1);
-}
-
 bool PatchSection::emit_monotone(const double* net, const Rectangle& r, Direction solved, bool rising,
                                  bool at_limit) {
   const int order_u = patch_->degree_u + 1;
@@ -289,22 +207,14 @@ bool PatchSection::emit_monotone(const double* net, const Rectangle& r, Directio
     at.at = end.t;
     return crossing_on_line(*patch_, z_, at);
   };
-  CrossingPoint start = point_at(first);
-  CrossingPoint end = point_at(last);
+  const CrossingPoint start = point_at(first);
+  const CrossingPoint end = point_at(last);
   // The outward normal lies on the right when v falls where the height rises with u, and u rises where it
   // rises with v.
   const bool flipped = by_u == rising;
-  const bool curved = patch_->degree_u > 1 || patch_->degree_v > 1;
-  SectionArc arc{static_cast<std::uint32_t>(section_->nodes.size()), 0, patch_->surface, ArcKind::kCrossing};
-  section_->nodes.push_back(flipped ? end.node : start.node);
-  if (flipped) {
-    bisect_arc(line, last.t, end, first.t, start, curved ? 1 : 0, 0);
-  } else {
-    bisect_arc(line, first.t, start, last.t, end, curved ? 1 : 0, 0);
-  }
-  section_->nodes.push_back(flipped ? start.node : end.node);
-  finish_arc(arc);
-  section_->arcs.push_back(arc);
+  ArcNodes nodes = arc_nodes();
+  section_->arcs.push_back(flipped ? nodes.crossing(line, last.t, end, first.t, start)
+                                   : nodes.crossing(line, first.t, start, last.t, end));
   return true;
 }
 
@@ -331,43 +241,12 @@ void PatchSection::emit_unresolved(const double* net, const Rectangle& r) {
     SectionNode a = crossings[k];
     SectionNode b = crossings[k + 1];
     if ((b.position - a.position).dot(a.tangent + b.tangent) < 0.0) std::swap(a, b);
-    const SectionArc arc{static_cast<std::uint32_t>(section_->nodes.size()), 2, patch_->surface,
+    const SectionArc arc{static_cast<std::uint32_t>(section_->nodes.size()), 2, patch_->span.surface,
                          ArcKind::kCrossing};
     section_->nodes.push_back(a);
     section_->nodes.push_back(b);
     section_->arcs.push_back(arc);
   }
-}
-
-void PatchSection::bisect_edge(Direction held, double at, double from, const EdgePoint& start, double to,
-                               const EdgePoint& end, int forced, int depth) {
-  const double sign = to > from ? 1.0 : -1.0;
-  if (depth == kDeepestBisection ||
-      (forced <= 0 && chord_holds(start.position, sign * start.derivative.normalized(), end.position,
-                                  sign * end.derivative.normalized()))) {
-    return;
-  }
-  const double middle = 0.5 * (from + to);
-  const EdgePoint point = point_on_line(*patch_, held, at, middle);
-  bisect_edge(held, at, from, start, middle, point, forced - 1, depth + 1);
-  section_->nodes.push_back(
-      {point.position, sign * point.derivative.normalized(), parameters_on(held, at, middle)});
-  bisect_edge(held, at, middle, point, to, end, forced - 1, depth + 1);
-}
-
-SectionArc PatchSection::edge_arc(Direction held, double at, double from, double to, ArcKind kind) {
-  SectionArc arc{static_cast<std::uint32_t>(section_->nodes.size()), 0, patch_->surface, kind};
-  const EdgePoint start = point_on_line(*patch_, held, at, from);
-  const EdgePoint end = point_on_line(*patch_, held, at, to);
-  const int degree = held == Direction::kU ? patch_->degree_v : patch_->degree_u;
-  arc.upright = std::max(start.normal_z, end.normal_z) < kUpright;
-  const double sign = to > from ? 1.0 : -1.0;
-  section_->nodes.push_back(
-      {start.position, sign * start.derivative.normalized(), parameters_on(held, at, from)});
-  bisect_edge(held, at, from, start, to, end, degree > 1 ? 1 : 0, 0);
-  section_->nodes.push_back({end.position, sign * end.derivative.normalized(), parameters_on(held, at, to)});
-  finish_arc(arc);
-  return arc;
 }
 
 void PatchSection::emit_one_sided(const double* net, const Rectangle& r, bool above) {
@@ -377,14 +256,14 @@ void PatchSection::emit_one_sided(const double* net, const Rectangle& r, bool ab
   const double* last_column = net + patch_->degree_v;
   const ArcKind kind = above ? ArcKind::kEdgeAbove : ArcKind::kEdgeBelow;
   const bool upright =
-      point_on_line(*patch_, Direction::kU, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1)).normal_z < kUpright;
+      point_on_line(*patch_, Direction::kU, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1)).upright();
   bool corner_covered[4] = {false, false, false, false};  // (u0,v0), (u1,v0), (u1,v1), (u0,v1)
   const auto edge = [&](bool in_plane, Direction held, double at, double from, double to, int corner_a,
                         int corner_b) {
     if (!in_plane) return;
     corner_covered[corner_a] = corner_covered[corner_b] = true;
     const std::size_t before = section_->nodes.size();
-    SectionArc arc = edge_arc(held, at, from, to, kind);
+    SectionArc arc = arc_nodes().edge(held, at, from, to, kind);
     arc.upright = arc.upright && upright;
     double length = 0.0;
     for (std::size_t k = before + 1; k < section_->nodes.size(); ++k) {
@@ -413,10 +292,10 @@ void PatchSection::emit_one_sided(const double* net, const Rectangle& r, bool ab
 
 void PatchSection::emit_flat(const Rectangle& r) {
   const std::size_t first = section_->flat_rims.size();
-  section_->flat_rims.push_back(edge_arc(Direction::kV, r.v0, r.u0, r.u1, ArcKind::kFlatRim));
-  section_->flat_rims.push_back(edge_arc(Direction::kU, r.u1, r.v0, r.v1, ArcKind::kFlatRim));
-  section_->flat_rims.push_back(edge_arc(Direction::kV, r.v1, r.u1, r.u0, ArcKind::kFlatRim));
-  section_->flat_rims.push_back(edge_arc(Direction::kU, r.u0, r.v1, r.v0, ArcKind::kFlatRim));
+  section_->flat_rims.push_back(arc_nodes().edge(Direction::kV, r.v0, r.u0, r.u1, ArcKind::kFlatRim));
+  section_->flat_rims.push_back(arc_nodes().edge(Direction::kU, r.u1, r.v0, r.v1, ArcKind::kFlatRim));
+  section_->flat_rims.push_back(arc_nodes().edge(Direction::kV, r.v1, r.u1, r.u0, ArcKind::kFlatRim));
+  section_->flat_rims.push_back(arc_nodes().edge(Direction::kU, r.u0, r.v1, r.v0, ArcKind::kFlatRim));
   Box2 box;
   for (std::size_t k = section_->flat_rims[first].first; k < section_->nodes.size(); ++k)
     box.extend(section_->nodes[k].position);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "engine/pointcloud/arc_nodes.h"
 #include "engine/pointcloud/patch_point.h"
 #include "engine/pointcloud/section_arc.h"
 
@@ -37,18 +38,11 @@ class PatchSection {
   bool snap_edges(double* net) const;
   void emit_one_sided(const double* net, const Rectangle& rectangle, bool above);
   void emit_flat(const Rectangle& rectangle);
-  SectionArc edge_arc(Direction held, double at, double from, double to, ArcKind kind);
   void halve(const double* net, const Rectangle& rectangle, double* free, int depth, Direction direction);
   bool emit_monotone(const double* net, const Rectangle& rectangle, Direction solved, bool rising,
                      bool at_limit);
   void emit_unresolved(const double* net, const Rectangle& rectangle);
-  void bisect_arc(const LineCrossing& solved, double from, const CrossingPoint& start, double to,
-                  const CrossingPoint& end, int forced, int depth);
-  void bisect_edge(Direction held, double at, double from, const EdgePoint& start, double to,
-                   const EdgePoint& end, int forced, int depth);
-  bool chord_holds(const Vector2& a, const Vector2& tangent_a, const Vector2& b,
-                   const Vector2& tangent_b) const;
-  void finish_arc(SectionArc& arc) const;
+  ArcNodes arc_nodes() const { return {*patch_, z_, options_.chord_tolerance, *section_}; }
 
   SectionOptions options_;
   // The patch in hand.

@@ -66,7 +66,7 @@ bool find_root(const TrimRegion& region, const NurbsCurve& curve, double low, do
 class ArcTrimmer {
  public:
   ArcTrimmer(Section& section, const FrontPatch& patch, double z)
-      : section_(section), patch_(patch), region_(*patch.trim), z_(z) {}
+      : section_(section), patch_(patch), region_(*patch.trim()), z_(z) {}
 
   void trim(const SectionArc& arc, const std::vector<SectionNode>& nodes) {
     std::vector<Cut> cuts;
@@ -96,7 +96,7 @@ class ArcTrimmer {
   };
 
   Vector2 global(const Vector2& local) const {
-    return patch_.low + local.cwiseProduct(patch_.high - patch_.low);
+    return patch_.low() + local.cwiseProduct(patch_.high() - patch_.low());
   }
 
   Vector2 parameters_at(const std::vector<SectionNode>& nodes, double place) const {
@@ -162,7 +162,7 @@ class ArcTrimmer {
 
 /// Whether all of an arc lies on one side of the surface's domain.
 bool on_border(const std::vector<SectionNode>& nodes, const FrontPatch& patch) {
-  const NurbsSurface& surface = patch.trim->surface();
+  const NurbsSurface& surface = patch.trim()->surface();
   const Vector2 low(surface.first_u(), surface.first_v());
   const Vector2 high(surface.last_u(), surface.last_v());
   const auto all = [&](int axis, double local, double global, double domain) {
@@ -170,8 +170,8 @@ bool on_border(const std::vector<SectionNode>& nodes, const FrontPatch& patch) {
              return node.parameters[axis] == local;
            });
   };
-  return all(0, 0.0, patch.low.x(), low.x()) || all(0, 1.0, patch.high.x(), high.x()) ||
-         all(1, 0.0, patch.low.y(), low.y()) || all(1, 1.0, patch.high.y(), high.y());
+  return all(0, 0.0, patch.low().x(), low.x()) || all(0, 1.0, patch.high().x(), high.x()) ||
+         all(1, 0.0, patch.low().y(), low.y()) || all(1, 1.0, patch.high().y(), high.y());
 }
 
 /// Nodes along a lifted trim curve, chords within tolerance.

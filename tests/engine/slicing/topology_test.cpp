@@ -228,6 +228,24 @@ TEST_CASE("walls that overshoot at their corners are cut there", "[slicing]") {
   CHECK(chains.open.size() == 8);
 }
 
+TEST_CASE("ends of walls that pass each other sideways are joined over a few epsilon", "[slicing]") {
+  // A square room, one wall in two parts: 0.03 mm apart, and 0.02 mm of each lie side by side.
+  const auto wall = [](const Vector2& a, const Vector2& b) {
+    return bilinear({a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {a.x(), a.y(), 5}, {b.x(), b.y(), 5});
+  };
+  const Model room =
+      model_of("room", {wall({0, 0}, {5.01, 0}), wall({4.99, 0.03}, {10, 0.03}), wall({10, 0.03}, {10, 10}),
+                        wall({10, 10}, {0, 10}), wall({0, 10}, {0, 0})});
+  engine::SliceOptions options;
+  options.epsilon = 0.01;
+  const auto [chains, report] = reported_chains_at(room, 2.0, options);
+  REQUIRE(chains.closed.size() == 1);
+  CHECK(chains.open.empty());
+  CHECK(std::abs(area_of(chains) - (100.0 - 5.0 * 0.03)) < 0.03 * 0.02);
+  REQUIRE(report.bridged_gaps.size() == 1);
+  CHECK(report.bridged_gaps.front().width() == Approx(std::hypot(0.03, 0.02)));
+}
+
 TEST_CASE("a wall that ends at another is led to it", "[slicing]") {
   // A box with a partition that stops 0.02 mm short of both walls.
   Model model = box({0, 0, 0}, {10, 10, 5}).model;
