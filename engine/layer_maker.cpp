@@ -17,8 +17,6 @@ namespace {
 constexpr double kSmallestCell = 0.1;
 /// Rounds of halving the distance of a slab's sections.
 constexpr int kMostSlabRounds = 7;
-/// Meshes are numbered after all surfaces that a model can have.
-constexpr std::uint32_t kMeshesFrom = 1U << 31U;
 /// How far from a level face a section is that does not touch it, mm.
 constexpr double kInside = 10.0 * kModelTolerance;
 
@@ -31,8 +29,9 @@ void add_flaws(LayerReport& report, const LayerReport& more) {
 
 }  // namespace
 
-LayerMaker::LayerMaker(const SliceOptions& options)
+LayerMaker::LayerMaker(const SliceOptions& options, SolidNumbers solids)
     : options_(options),
+      solids_(std::move(solids)),
       patch_section_({options.chord_part * options.epsilon, kSmallestCell * options.epsilon}),
       meetings_(options.epsilon) {}
 
@@ -47,7 +46,8 @@ LayerChains LayerMaker::chains(const FrontState& front, double z, LayerReport& r
   for (const auto& region : front.regions) {
     add_trim_edges(section_, *region, z, options_.chord_part * options_.epsilon);
   }
-  for (const FrontFacet& facet : front.facets) cut_facet(facet, kMeshesFrom + facet.mesh, z, section_);
+  for (const FrontFacet& facet : front.facets)
+    cut_facet(facet, SolidNumbers::surface_of_mesh(facet.mesh), z, section_);
   report.active_patches = front.patches.size();
   report.active_facets = front.facets.size();
   report.patches_added = front.added;
@@ -57,7 +57,7 @@ LayerChains LayerMaker::chains(const FrontState& front, double z, LayerReport& r
   report.arcs = section_.arcs.size();
   report.nodes = section_.nodes.size();
   const double cut = now();
-  LayerChains chains = make_chains(section_, options_, meetings_, report);
+  LayerChains chains = make_chains(section_, solids_, options_, meetings_, report);
   report.components = chains.closed.size() + chains.open.size() + chains.touch_curves.size() +
                       chains.faces.size() + chains.touch_points.size();
   report.seconds.section = cut - began;

@@ -8,6 +8,7 @@
 #include "engine/pointcloud/front_state.h"
 #include "engine/pointcloud/patch_section.h"
 #include "engine/slice_options.h"
+#include "engine/solid_numbers.h"
 
 namespace lamina::engine {
 
@@ -15,7 +16,7 @@ namespace lamina::engine {
 /// one layer for the next: one maker a thread.
 class LayerMaker {
  public:
-  explicit LayerMaker(const SliceOptions& options);
+  explicit LayerMaker(const SliceOptions& options, SolidNumbers solids = {});
 
   /// What the plane at height z and the patches have in common, as chains of exact nodes.
   LayerChains chains(const FrontState& front, double z, LayerReport& report);
@@ -29,6 +30,7 @@ class LayerMaker {
   double now() const { return options_.clock == nullptr ? 0.0 : options_.clock(); }
 
   SliceOptions options_;
+  SolidNumbers solids_;
   PatchSection patch_section_;
   MeetingFinder meetings_;
   Section section_;

@@ -31,10 +31,10 @@ struct LayerQueue::Workshop {
     oneapi::tbb::task_group group;
   };
 
-  explicit Workshop(const SliceOptions& options)
+  Workshop(const SliceOptions& options, SolidNumbers solids)
       : threads(thread_count(options.threads)),
         arena(std::min(threads, oneapi::tbb::info::default_concurrency())),  // it would warn of more
-        makers([options] { return LayerMaker(options); }) {}
+        makers([options, numbers = std::move(solids)] { return LayerMaker(options, numbers); }) {}
 
   void make(Job& job) {
     job.layer = makers.local().make(job.front, job.plane, job.index);
@@ -47,7 +47,8 @@ struct LayerQueue::Workshop {
   std::deque<Job> jobs;
 };
 
-LayerQueue::LayerQueue(const SliceOptions& options) : workshop_(std::make_unique<Workshop>(options)) {}
+LayerQueue::LayerQueue(const SliceOptions& options, SolidNumbers solids)
+    : workshop_(std::make_unique<Workshop>(options, std::move(solids))) {}
 
 LayerQueue::~LayerQueue() {
   for (Workshop::Job& job : workshop_->jobs) {

@@ -7,6 +7,7 @@
 #include "engine/layer.h"
 #include "engine/pointcloud/front_state.h"
 #include "engine/slice_options.h"
+#include "engine/solid_numbers.h"
 
 namespace lamina::engine {
 
@@ -14,7 +15,7 @@ namespace lamina::engine {
 /// most four a thread at the same time. The one place that knows of threads (oneTBB).
 class LayerQueue {
  public:
-  explicit LayerQueue(const SliceOptions& options);
+  LayerQueue(const SliceOptions& options, SolidNumbers solids);
   /// Waits for what is being made.
   ~LayerQueue();
   LayerQueue(const LayerQueue&) = delete;

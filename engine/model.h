@@ -24,16 +24,18 @@ struct Surface {
   std::vector<TrimLoop> trim;  ///< empty: the whole surface
   int entity_type = 0;         ///< IGES entity type number, such as 128
   int directory_line = 0;      ///< sequence number of its directory entry in the file, such as 255
+  std::uint32_t solid = 0;     ///< number of the solid that it bounds with others; 0: none that is known
 };
 
 /// Triangles as a file gives them, mm: not repaired, corners perhaps not shared, normals perhaps reversed.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> facets;  ///< indices of vertices
+  std::uint32_t solid = 0;                           ///< as that of a surface
 };
 
 /// What is sliced: surfaces and triangles in mm that together bound a solid. Nothing is promised about
-/// topology.
+/// topology. Known solids are united, whatever lies in each other; what is of no known solid nests by parity.
 struct Model {
   std::string name;  ///< the file's stem
   std::vector<Surface> surfaces;

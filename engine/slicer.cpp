@@ -51,7 +51,7 @@ Slicer::Slicer(const Model& model, std::vector<SlicePlane> planes, const SliceOp
       contained_(options.containment != Containment::kNominal),
       patches_(model),
       facets_(model),
-      queue_(std::make_unique<LayerQueue>(options)) {}
+      queue_(std::make_unique<LayerQueue>(options, SolidNumbers(model))) {}
 
 Slicer::~Slicer() = default;
 Slicer::Slicer(Slicer&&) noexcept = default;

@@ -159,7 +159,8 @@ std::size_t open_count(const std::vector<NodeChain>& chains) {
 }
 
 /// Leads free ends to the nearest point of a chain's middle within reach.
-void lead_to_chains(std::vector<NodeChain>& chains, double reach, LayerReport& report) {
+void lead_to_chains(BridgedChains& result, double reach) {
+  std::vector<NodeChain>& chains = result.chains;
   const std::vector<NodeChain> before = chains;
   for (std::uint32_t end = 0; end < 2 * chains.size(); ++end) {
     if (before[end / 2].closed || !end_node(before, end).exact) continue;  // led there already
@@ -194,20 +195,25 @@ void lead_to_chains(std::vector<NodeChain>& chains, double reach, LayerReport& r
       mark_bridge(chain.nodes.back(), node);
       chain.nodes.push_back(node);
     }
-    report.bridged_gaps.push_back({place, target});
+    result.bridges.push_back({place, target});
   }
 }
 
-void report_bridges(const std::vector<NodeChain>& chains, const std::vector<std::uint32_t>& partner,
-                    double least, LayerReport& report) {
+/// The gaps between partners that are wider than `least`.
+std::vector<BridgedGap> bridges_between(const std::vector<NodeChain>& chains,
+                                        const std::vector<std::uint32_t>& partner, double least) {
+  std::vector<BridgedGap> bridges;
   for (std::uint32_t end = 0; end < partner.size(); ++end) {
     if (partner[end] == kNone || partner[end] < end) continue;
     const BridgedGap gap{end_node(chains, end).position, end_node(chains, partner[end]).position};
-    if (gap.width() > least) report.bridged_gaps.push_back(gap);
+    if (gap.width() > least) bridges.push_back(gap);
   }
+  return bridges;
 }
 
-void report_open(const std::vector<NodeChain>& chains, LayerReport& report) {
+/// From each end that is left open to the nearest other one.
+std::vector<BridgedGap> open_gaps(const std::vector<NodeChain>& chains) {
+  std::vector<BridgedGap> gaps;
   for (std::uint32_t end = 0; end < 2 * chains.size(); ++end) {
     if (chains[end / 2].closed || !end_node(chains, end).exact) continue;
     const Vector2& place = end_node(chains, end).position;
@@ -221,30 +227,34 @@ void report_open(const std::vector<NodeChain>& chains, LayerReport& report) {
         gap.to = end_node(chains, other).position;
       }
     }
-    report.open_gaps.push_back(gap);
+    gaps.push_back(gap);
   }
+  return gaps;
 }
 
 }  // namespace
 
-std::vector<NodeChain> bridge_gaps(std::vector<NodeChain> chains, const BridgeOptions& options,
-                                   LayerReport& report) {
+BridgedChains bridge_gaps(std::vector<NodeChain> chains, const BridgeOptions& options) {
+  BridgedChains result;
+  result.chains = std::move(chains);
+  const auto all_closed = [&result] { return open_count(result.chains) == 0; };
   const auto bridge = [&](double any_way, double reach) {
-    const std::vector<std::uint32_t> partner = nearest_partners(chains, any_way, reach);
-    report_bridges(chains, partner, options.joined, report);
-    chains = joined_chains(std::move(chains), partner, options.joined);
+    const std::vector<std::uint32_t> partner = nearest_partners(result.chains, any_way, reach);
+    const std::vector<BridgedGap> bridges = bridges_between(result.chains, partner, options.joined);
+    result.bridges.insert(result.bridges.end(), bridges.begin(), bridges.end());
+    result.chains = joined_chains(std::move(result.chains), partner, options.joined);
   };
-  if (open_count(chains) == 0) return chains;
+  if (all_closed()) return result;
   bridge(options.epsilon, options.epsilon);
-  if (open_count(chains) == 0) return chains;
-  lead_to_chains(chains, options.epsilon, report);
+  if (all_closed()) return result;
+  lead_to_chains(result, options.epsilon);
   bridge(options.epsilon, options.longest_bridge);
-  if (open_count(chains) == 0) return chains;
+  if (all_closed()) return result;
   const double lead = std::min(options.longest_bridge, kLongestLead * options.epsilon);
-  lead_to_chains(chains, lead, report);
+  lead_to_chains(result, lead);
   bridge(lead, lead);
-  report_open(chains, report);
-  return chains;
+  result.open_gaps = open_gaps(result.chains);
+  return result;
 }
 
 }  // namespace lamina::engine

@@ -8,6 +8,7 @@
 #include "engine/layer_report.h"
 #include "engine/pointcloud/section_arc.h"
 #include "engine/slice_options.h"
+#include "engine/solid_numbers.h"
 
 namespace lamina::engine {
 
@@ -25,8 +26,9 @@ struct LayerChains {
 };
 
 /// Links the arcs of a section end to end, bridges gaps, unites the chains that meet and sorts out what lies
-/// in the plane. `meetings` lends its buffers. Counts in `report` what was found and all that was imperfect.
-LayerChains make_chains(const Section& section, const SliceOptions& options, MeetingFinder& meetings,
-                        LayerReport& report);
+/// in the plane. Known solids that are closed are made one by one and then united; everything else is taken
+/// together. `meetings` lends its buffers. Counts in `report` what was found and all that was imperfect.
+LayerChains make_chains(const Section& section, const SolidNumbers& solids, const SliceOptions& options,
+                        MeetingFinder& meetings, LayerReport& report);
 
 }  // namespace lamina::engine

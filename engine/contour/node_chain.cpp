@@ -1,5 +1,7 @@
 #include "engine/contour/node_chain.h"
 
+#include <cmath>
+
 namespace lamina::engine {
 
 Loop loop_of(const NodeChain& chain) {
@@ -16,6 +18,11 @@ double length_of(const NodeChain& chain) {
   }
   if (chain.closed) length += (chain.nodes.front().position - chain.nodes.back().position).norm();
   return length;
+}
+
+double mean_width(const NodeChain& outline) {
+  const Loop loop = loop_of(outline);
+  return 2.0 * std::abs(signed_area(loop)) / perimeter(loop);
 }
 
 }  // namespace lamina::engine

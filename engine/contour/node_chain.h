@@ -11,4 +11,7 @@ Loop loop_of(const NodeChain& chain);
 /// Sum of the chords between nodes, the closing one of a closed chain included, mm.
 double length_of(const NodeChain& chain);
 
+/// Width of a strip with the area and length of the closed chain, mm.
+double mean_width(const NodeChain& outline);
+
 }  // namespace lamina::engine

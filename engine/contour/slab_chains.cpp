@@ -56,10 +56,7 @@ std::vector<NodeChain> contain_sections(const std::vector<LayerChains>& sections
   }
   std::vector<NodeChain> outlines =
       covered_outlines(chains, positive ? 1 : static_cast<int>(sections.size()));
-  std::erase_if(outlines, [&](const NodeChain& outline) {
-    const Loop loop = loop_of(outline);
-    return 2.0 * std::abs(signed_area(loop)) < least_width * perimeter(loop);
-  });
+  std::erase_if(outlines, [&](const NodeChain& outline) { return mean_width(outline) < least_width; });
   return outlines;
 }
 

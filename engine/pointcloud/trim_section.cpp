@@ -13,6 +13,10 @@ constexpr int kMostRootSteps = 80;
 constexpr int kDeepestBisection = 16;
 /// How far inside its trim curve a surface is looked at, in parts of the domain.
 constexpr double kBeside = 1e-3;
+/// Off the middle, where symmetric parts are touched by round holes.
+constexpr double kProbe = 0.4142;
+/// How near to a trim curve an arc runs along it, in parts of the domain.
+constexpr double kAlong = 1e-6;
 
 Vector2 on_curve(const NurbsCurve& curve, double t) {
   return evaluate(curve, t).head<2>();
@@ -38,7 +42,7 @@ bool find_root(const TrimRegion& region, const NurbsCurve& curve, double low, do
   const auto height = [&](double t) { return on_surface(region, on_curve(curve, t)).z() - z; };
   double f_low = height(low);
   double f_high = height(high);
-  if (f_low == 0.0 || f_high == 0.0) {
+  if (f_low == 0.0 || f_high == 0.0 || low == high) {
     root = f_low == 0.0 ? low : high;
     return true;
   }
@@ -63,10 +67,20 @@ bool find_root(const TrimRegion& region, const NurbsCurve& curve, double low, do
   return true;
 }
 
+bool in_plane(const std::vector<EdgeSample>& samples, double z) {
+  return std::all_of(samples.begin(), samples.end(), [&](const EdgeSample& sample) {
+    return std::abs(sample.position.z() - z) <= kModelTolerance;
+  });
+}
+
 class ArcTrimmer {
  public:
   ArcTrimmer(Section& section, const FrontPatch& patch, double z)
-      : section_(section), patch_(patch), region_(*patch.trim()), z_(z) {}
+      : section_(section), patch_(patch), region_(*patch.trim()), z_(z) {
+    for (std::uint32_t e = 0; e < region_.edges().size(); ++e) {
+      if (in_plane(region_.samples()[e], z)) level_edges_.push_back(e);
+    }
+  }
 
   void trim(const SectionArc& arc, const std::vector<SectionNode>& nodes) {
     std::vector<Cut> cuts;
@@ -75,12 +89,15 @@ class ArcTrimmer {
            region_.crossings(global(nodes[k].parameters), global(nodes[k + 1].parameters)))
         cuts.push_back({k, crossing});
     }
+    if (!level_edges_.empty()) add_ends_of_level_edges(nodes, cuts);
     Cut from{0, {}};
     bool at_start = true;
     for (std::size_t c = 0; c <= cuts.size(); ++c) {
       const bool at_end = c == cuts.size();
       const Cut to = at_end ? Cut{nodes.size() - 1, {}} : cuts[c];
-      if (region_.contains(middle_of(nodes, from, to))) emit(arc, nodes, from, at_start, to, at_end);
+      const Vector2 probe = probe_of(nodes, from, to);
+      // What runs along a trim curve is that curve's own edge.
+      if (region_.contains(probe) && !on_level_edge(probe)) emit(arc, nodes, from, at_start, to, at_end);
       from = to;
       at_start = false;
     }
@@ -105,8 +122,46 @@ class ArcTrimmer {
     return global((1.0 - s) * nodes[k].parameters + s * nodes[k + 1].parameters);
   }
 
-  Vector2 middle_of(const std::vector<SectionNode>& nodes, const Cut& from, const Cut& to) const {
-    return parameters_at(nodes, 0.5 * (from.place() + to.place()));
+  /// Distance of a place from a chord, in parts of the domain, and where on the chord.
+  std::pair<double, double> distance_to(const Vector2& place, const Vector2& a, const Vector2& b) const {
+    const NurbsSurface& surface = region_.surface();
+    const Vector2 unit(1.0 / (surface.last_u() - surface.first_u()),
+                       1.0 / (surface.last_v() - surface.first_v()));
+    const Vector2 along = (b - a).cwiseProduct(unit);
+    const Vector2 to = (place - a).cwiseProduct(unit);
+    const double s = std::clamp(to.dot(along) / std::max(along.squaredNorm(), 1e-300), 0.0, 1.0);
+    return {(to - s * along).norm(), s};
+  }
+
+  /// An arc that runs along a trim curve meets the loop where that curve ends, perhaps without crossing it.
+  void add_ends_of_level_edges(const std::vector<SectionNode>& nodes, std::vector<Cut>& cuts) const {
+    for (const std::uint32_t edge : level_edges_) {
+      const std::vector<EdgeSample>& samples = region_.samples()[edge];
+      for (const EdgeSample& end : {samples.front(), samples.back()}) {
+        for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+          const auto [distance, along] =
+              distance_to(end.parameters, global(nodes[k].parameters), global(nodes[k + 1].parameters));
+          if (distance <= kAlong) cuts.push_back({k, {along, edge, end.t, end.t}});
+        }
+      }
+    }
+    std::stable_sort(cuts.begin(), cuts.end(),
+                     [](const Cut& a, const Cut& b) { return a.place() < b.place(); });
+  }
+
+  bool on_level_edge(const Vector2& place) const {
+    for (const std::uint32_t edge : level_edges_) {
+      const std::vector<EdgeSample>& samples = region_.samples()[edge];
+      for (std::size_t k = 1; k < samples.size(); ++k) {
+        if (distance_to(place, samples[k - 1].parameters, samples[k].parameters).first <= kAlong) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Between two cuts, where it is told on which side of the trim curves they are.
+  Vector2 probe_of(const std::vector<SectionNode>& nodes, const Cut& from, const Cut& to) const {
+    return parameters_at(nodes, from.place() + kProbe * (to.place() - from.place()));
   }
 
   /// The node where the arc meets the trim curve.
@@ -158,6 +213,7 @@ class ArcTrimmer {
   const FrontPatch& patch_;
   const TrimRegion& region_;
   double z_;
+  std::vector<std::uint32_t> level_edges_;  // those that lie in the plane
 };
 
 /// Whether all of an arc lies on one side of the surface's domain.
@@ -238,12 +294,6 @@ void append_arc(Section& section, const std::vector<SectionNode>& nodes, Section
   arc.count = static_cast<std::uint32_t>(nodes.size());
   section.nodes.insert(section.nodes.end(), nodes.begin(), nodes.end());
   arcs.push_back(arc);
-}
-
-bool in_plane(const std::vector<EdgeSample>& samples, double z) {
-  return std::all_of(samples.begin(), samples.end(), [&](const EdgeSample& sample) {
-    return std::abs(sample.position.z() - z) <= kModelTolerance;
-  });
 }
 
 /// A curve in the plane as the edge of what lies inside of it.

@@ -176,3 +176,29 @@ TEST_CASE("a machined part has the same closed sections out of STEP and out of I
     CHECK(engine::area(gcode::make_region(*layer, {}).region) == Approx(area).epsilon(1e-4));
   }
 }
+
+TEST_CASE("planes through the level edges and holes of a machined part", "[corpus]") {
+  if (!tests::corpus_present()) {
+    WARN("the model corpus is not there: skipped");
+    return;
+  }
+  for (const std::string file : {"part_bracket_144.igs", "part_bracket_186.igs", "part_bracket_nurbs_144.igs",
+                                 "part_bracket_ap203.stp", "part_bracket_inch_144.igs"}) {
+    CAPTURE(file);
+    const engine::Model model = engine::read_model(tests::corpus_file("parts/" + file)).model;
+    engine::Slicer slicer(model, {{6.0, 6.0, 6.0}, {15.0, 15.0, 15.0}}, {});
+    // The top of the plate: 40 x 24 mm, one corner a ball of radius 5 that touches the plane, a hole of
+    // radius 4.
+    const auto plate = slicer.next();
+    REQUIRE(plate);
+    CHECK(plate->open.empty());
+    const double expected = 40.0 * 24.0 - 6.25 * std::numbers::pi - 16.0 * std::numbers::pi;
+    CHECK(engine::area(gcode::make_region(*plate, {}).region) == Approx(expected).epsilon(1e-5));
+    // The highest line of the hole across the wall, 3 mm long up to the countersink, touches the plane.
+    const auto wall = slicer.next();
+    REQUIRE(wall);
+    REQUIRE(wall->open.size() == 1);
+    CHECK(wall->open.front().touch);
+    CHECK(engine::length(wall->open.front().curve) == Approx(3.0).epsilon(1e-3));
+  }
+}

@@ -61,9 +61,9 @@ TEST_CASE("the true section of a torus lies on its circles and leaves no part of
     CHECK(widest * 20.0 < 1.5);
   }
   // Outside, in the ring, in the hole.
-  CHECK(std::abs(tools::winding_number(section.pieces, {25, 0})) < 1e-6);
-  CHECK(std::abs(tools::winding_number(section.pieces, {0, 15})) == Approx(1.0));
-  CHECK(std::abs(tools::winding_number(section.pieces, {1, 0})) < 1e-6);
+  CHECK(std::abs(tools::winding_number(section, {25, 0})) < 1e-6);
+  CHECK(std::abs(tools::winding_number(section, {0, 15})) == Approx(1.0));
+  CHECK(std::abs(tools::winding_number(section, {1, 0})) < 1e-6);
 }
 
 TEST_CASE("the true union of two spheres has the closed form's area", "[bench]") {

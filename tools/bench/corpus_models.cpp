@@ -8,12 +8,13 @@
 namespace lamina::tools {
 
 std::vector<CorpusModel> corpus_models(const std::filesystem::path& corpus,
-                                       const std::vector<std::string>& parts) {
+                                       const std::vector<std::string>& parts,
+                                       const std::vector<std::string>& extensions) {
   std::vector<CorpusModel> models;
   if (!std::filesystem::is_directory(corpus)) return models;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus)) {
     const std::string extension = entry.path().extension().string();
-    if (extension != ".igs" && extension != ".iges") continue;
+    if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) continue;
     const std::string name = std::filesystem::relative(entry.path(), corpus).generic_string();
     const bool wanted =
         parts.empty() || std::any_of(parts.begin(), parts.end(), [&](const std::string& part) {

@@ -62,8 +62,8 @@ CoarseGrid coarse_grid(const engine::BezierPatch& patch) {
   return grid;
 }
 
-double distance_to_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
-                         const CoarseGrid& coarse) {
+FootPoint foot_on_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
+                        const CoarseGrid& coarse) {
   engine::Vector2 uv = coarse_start(point, coarse);
   PatchPoint at = evaluate_with_derivatives(patch, uv.x(), uv.y());
   double best = (at.point - point).norm();
@@ -73,7 +73,7 @@ double distance_to_patch(const engine::Vector3& point, const engine::BezierPatch
     bool nearer = false;
     for (int halving = 0; halving < 8 && !nearer; ++halving, move *= 0.5) {
       const engine::Vector2 next = (uv + move).cwiseMax(0.0).cwiseMin(1.0);
-      if ((next - uv).cwiseAbs().maxCoeff() < kNegligibleStep) return best;
+      if ((next - uv).cwiseAbs().maxCoeff() < kNegligibleStep) return {best, uv};
       const PatchPoint tried = evaluate_with_derivatives(patch, next.x(), next.y());
       const double distance = (tried.point - point).norm();
       if (distance >= best) continue;
@@ -84,7 +84,7 @@ double distance_to_patch(const engine::Vector3& point, const engine::BezierPatch
     }
     if (!nearer) break;
   }
-  return best;
+  return {best, uv};
 }
 
 double certain_distance_to_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
@@ -104,7 +104,7 @@ double certain_distance_to_patch(const engine::Vector3& point, const engine::Bez
     const Part nearest = parts.top();
     parts.pop();
     if (nearest.to_box >= best - kCertain) break;
-    best = std::min(best, distance_to_patch(point, nearest.patch, coarse_grid(nearest.patch)));
+    best = std::min(best, foot_on_patch(point, nearest.patch, coarse_grid(nearest.patch)).distance);
     if (engine::control_box(nearest.patch.net).diagonal().norm() < kSmallestPart) continue;
     const auto [low, high] = engine::halves_in_u(nearest.patch);
     for (const engine::BezierPatch& half : {low, high}) {
@@ -116,14 +116,9 @@ double certain_distance_to_patch(const engine::Vector3& point, const engine::Bez
   return best;
 }
 
-SurfaceDistance::SurfaceDistance(const engine::Model& model) {
-  for (const engine::Surface& surface : model.surfaces) {
-    for (engine::BezierPatch& patch : engine::bezier_patches(surface.nurbs)) {
-      const engine::Box3 box = engine::control_box(patch.net);
-      const CoarseGrid coarse = coarse_grid(patch);
-      candidates_.push_back({std::move(patch), box, coarse});
-    }
-  }
+SurfaceDistance::SurfaceDistance(const engine::Model& model) : parts_(model) {
+  for (const ModelPatch& part : parts_.patches)
+    candidates_.push_back({&part, engine::control_box(part.patch.net), coarse_grid(part.patch)});
 }
 
 void SurfaceDistance::select_plane(double z, double reach) {
@@ -138,20 +133,28 @@ void SurfaceDistance::select_plane(double z, double reach) {
   bins_ = PlanarBins(std::move(boxes));
 }
 
+/// The least of `best` and the distance to what counts of the candidate.
+double SurfaceDistance::distance_to(const Candidate& candidate, const engine::Vector3& point,
+                                    double best) const {
+  const FootPoint foot = foot_on_patch(point, candidate.part->patch, candidate.coarse);
+  if (foot.distance >= best) return best;
+  return candidate.part->counts(foot.parameters)
+             ? foot.distance
+             : std::min(best, candidate.part->trim->distance_to_rim(point));
+}
+
 double SurfaceDistance::distance(const engine::Vector3& point, const Trust& trust) const {
   const double local = bins_.nearest(point.head<2>(), trust.enough, [&](std::uint32_t item, double best) {
     const Candidate& candidate = candidates_[selected_[item]];
-    return candidate.box.exteriorDistance(point) >= best
-               ? best
-               : distance_to_patch(point, candidate.patch, candidate.coarse);
+    return candidate.box.exteriorDistance(point) >= best ? best : distance_to(candidate, point, best);
   });
   if (local <= trust.local) return local;
   return bins_.nearest(point.head<2>(), trust.enough, [&](std::uint32_t item, double best) {
     const Candidate& candidate = candidates_[selected_[item]];
     const double bound = std::min(best, local);
-    return candidate.box.exteriorDistance(point) >= bound
+    return candidate.box.exteriorDistance(point) >= bound || candidate.part->trim != nullptr
                ? bound
-               : certain_distance_to_patch(point, candidate.patch, bound);
+               : certain_distance_to_patch(point, candidate.part->patch, bound);
   });
 }
 

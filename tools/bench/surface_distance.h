@@ -7,6 +7,7 @@
 #include "engine/model.h"
 #include "engine/nurbs/bezier.h"
 #include "tools/bench/planar_bins.h"
+#include "tools/bench/trim_outline.h"
 
 namespace lamina::tools {
 
@@ -14,11 +15,16 @@ namespace lamina::tools {
 using CoarseGrid = std::array<engine::Vector3, 9>;
 CoarseGrid coarse_grid(const engine::BezierPatch& patch);
 
-/// Distance from a point to a patch: the nearest point of the coarse grid, then Gauss-Newton steps on the
-/// squared distance with the parameters kept inside the patch (The NURBS Book, section 6.1). An upper bound
-/// of the true distance: it may end at a local minimum.
-double distance_to_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
-                         const CoarseGrid& coarse);
+struct FootPoint {
+  double distance = 0.0;                                 ///< mm
+  engine::Vector2 parameters = engine::Vector2::Zero();  ///< on the patch
+};
+
+/// The nearest point of a patch: the nearest point of the coarse grid, then Gauss-Newton steps on the squared
+/// distance with the parameters kept inside the patch (The NURBS Book, section 6.1). The distance is an upper
+/// bound of the true one: it may be that of a local minimum.
+FootPoint foot_on_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
+                        const CoarseGrid& coarse);
 
 /// The least of `best` and the distance to the patch, to 1e-6 mm: halves of the patch are searched, the
 /// nearest first, until no box of their nets can be nearer.
@@ -38,16 +44,20 @@ class SurfaceDistance {
   };
 
   /// Distance to the nearest patch of the selection, mm; infinite when the selection is empty. Up to
-  /// `trust.local` an upper bound of the true distance, above it the true one.
+  /// `trust.local` an upper bound of the true distance, above it the true one. Of a patch that trim curves
+  /// cut, where the foot is trimmed away, it is the distance to the rim: an upper bound.
   double distance(const engine::Vector3& point, const Trust& trust) const;
 
  private:
   struct Candidate {
-    engine::BezierPatch patch;
+    const ModelPatch* part = nullptr;
     engine::Box3 box;
     CoarseGrid coarse;
   };
 
+  double distance_to(const Candidate& candidate, const engine::Vector3& point, double best) const;
+
+  ModelPatches parts_;
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> selected_;
   PlanarBins bins_;

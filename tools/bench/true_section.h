@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/model.h"
-#include "engine/nurbs/bezier.h"
+#include "tools/bench/trim_outline.h"
 
 namespace lamina::tools {
 
@@ -18,12 +18,14 @@ struct TrueSection {
   std::vector<engine::Vector2> crossings;  ///< where a surface passes through the plane
   std::vector<engine::Vector2> in_plane;   ///< where it lies in the plane, or ends in it
   std::vector<SectionPiece> pieces;        ///< of cells of parameter lines with two crossings
+  std::vector<std::uint32_t> solids;       ///< number of each piece's solid, 0 where none is known
 };
 
 /// Sections by a route of their own: on lines of constant u and of constant v at random places, the sides of
 /// every patch among them, the height over the plane is evaluated; where it changes sign the crossing is
-/// solved by bisection. Loops smaller than the lines' spacing can be missed, nothing else: the points are no
-/// farther apart than about the spacing.
+/// solved by bisection. Of trimmed surfaces what lies inside the loops counts, and where the loops cross the
+/// plane; facets are patches of degree one. Loops smaller than the lines' spacing can be missed, nothing
+/// else: the points are no farther apart than about the spacing.
 class TrueSectioner {
  public:
   TrueSectioner(const engine::Model& model, unsigned seed);
@@ -33,7 +35,7 @@ class TrueSectioner {
 
  private:
   struct Candidate {
-    engine::BezierPatch patch;
+    const ModelPatch* part = nullptr;
     engine::Box3 box;
     double size_u = 0.0;  ///< upper bounds of the lengths, mm
     double size_v = 0.0;
@@ -42,12 +44,18 @@ class TrueSectioner {
   std::vector<double> places(double size, double spacing);
   void cut(const Candidate& candidate, double z, double spacing, TrueSection& section);
 
+  ModelPatches parts_;
   std::vector<Candidate> candidates_;
   std::mt19937 random_;
 };
 
-/// How often the pieces of a section wind around a place: 0 outside, 1 inside one solid, 2 inside two whose
-/// surfaces run through each other; negative where the surfaces' normals point inwards.
-double winding_number(const std::vector<SectionPiece>& pieces, const engine::Vector2& place);
+/// Whether a place lies inside a known solid: of four rays to the sides most cross its pieces an odd number
+/// of times. Surfaces may face either way.
+bool in_known_solid(const TrueSection& section, const engine::Vector2& place);
+
+/// How often the pieces of a section that bound no known solid wind around a place: 0 outside, 1 inside one
+/// solid, 2 inside two whose surfaces run through each other; negative where the surfaces' normals point
+/// inwards.
+double winding_number(const TrueSection& section, const engine::Vector2& place);
 
 }  // namespace lamina::tools

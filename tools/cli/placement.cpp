@@ -1,7 +1,6 @@
 #include "tools/cli/placement.h"
 
 #include <algorithm>
-#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -82,9 +81,16 @@ Posed pose(const Model& model, const PlacementArguments& arguments) {
   return {engine::transformed(model, scaling * turn), Box3(scale * bounds.min(), scale * bounds.max())};
 }
 
+/// Solids of one model stay apart from those of the others.
 void append(Model& all, Model part) {
-  const auto move_all = [](auto& from, auto& to) {
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+  std::uint32_t highest = 0;
+  for (const engine::Surface& surface : all.surfaces) highest = std::max(highest, surface.solid);
+  for (const engine::TriangleMesh& mesh : all.meshes) highest = std::max(highest, mesh.solid);
+  const auto move_all = [&](auto& from, auto& to) {
+    for (auto& piece : from) {
+      if (piece.solid != 0) piece.solid += highest;
+      to.push_back(std::move(piece));
+    }
   };
   move_all(part.surfaces, all.surfaces);
   move_all(part.meshes, all.meshes);

@@ -10,12 +10,52 @@ namespace lamina::engine {
 namespace {
 
 constexpr std::size_t kPlacesPerSpan = 10;
+constexpr int kHeadingsPerSpan = 8;
+/// The cosine of the angle by which the curve's direction may differ from the chain's.
+constexpr double kLeastHeading = 0.5;
 /// A slip moves the foot point by second order; what it leaves is far below any tolerance once it is this
 /// part of the way between two samples.
 constexpr double kSmallSlip = 0.05;
 
 double cross(const Vector2& a, const Vector2& b) {
   return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Direction of the chain that far along; `node` is advanced to the one before.
+Vector2 tangent_at(const WalkedChain& walk, double walked, std::size_t& node) {
+  while (node + 2 < walk.walked.size() && walk.walked[node + 1] <= walked) ++node;
+  const double part = std::clamp((walked - walk.walked[node]) / walk.lengths[node], 0.0, 1.0);
+  return ((1.0 - part) * walk.chain.tangents[node] + part * walk.chain.tangents[node + 1]).normalized();
+}
+
+/// Whether each span of the curve runs the way of the chain: one that darts out between two places of the
+/// chain and back again is near all of them.
+template <int kDegree>
+std::vector<bool> spans_running_along(const PlanarCurve& curve, const std::vector<FitSample>& samples,
+                                      const WalkedChain& walk) {
+  constexpr auto kCount = static_cast<std::size_t>(kDegree);
+  std::vector<bool> along(curve.control_points.size() - kCount, true);
+  std::size_t sample = 0;
+  std::size_t node = 0;
+  for (std::size_t span = kCount; span < curve.control_points.size(); ++span) {
+    const SpanBasis<kDegree> basis(curve.knots, span);
+    for (int k = 0; k < kHeadingsPerSpan; ++k) {
+      const double t =
+          curve.knots[span] + (k + 0.5) / kHeadingsPerSpan * (curve.knots[span + 1] - curve.knots[span]);
+      while (sample + 2 < samples.size() && samples[sample + 1].parameter <= t) ++sample;
+      const FitSample& left = samples[sample];
+      const FitSample& right = samples[sample + 1];
+      const double gap = right.parameter - left.parameter;
+      const double part = gap > 0.0 ? std::clamp((t - left.parameter) / gap, 0.0, 1.0) : 0.0;
+      const Vector2 tangent = tangent_at(walk, left.walked + part * (right.walked - left.walked), node);
+      const BasisWindow window = basis.at(t);
+      Vector2 derivative = Vector2::Zero();
+      for (std::size_t r = 0; r <= kCount; ++r)
+        derivative += window.slope[r] * curve.control_points[window.first + r];
+      if (!(derivative.dot(tangent) >= kLeastHeading * derivative.norm())) along[span - kCount] = false;
+    }
+  }
+  return along;
 }
 
 template <int kDegree>
@@ -63,12 +103,16 @@ std::vector<double> span_distances_of_degree(const PlanarCurve& curve, const std
     }
     // Near every place is not enough: the curve must run along them, or it could stray in between.
     const double step = walked - foot_walked;
-    if (!(heading >= 0.5 && way >= 0.3 * step && way <= 3.0 * step))
+    if (!(heading >= kLeastHeading && way >= 0.3 * step && way <= 3.0 * step))
       distance = std::numeric_limits<double>::infinity();
     distances[span - kCount] = std::max(distances[span - kCount], distance);
     foot = t;
     foot_walked = walked;
   });
+  const std::vector<bool> along = spans_running_along<kDegree>(curve, samples, walk);
+  for (std::size_t k = 0; k < spans; ++k) {
+    if (!along[k]) distances[k] = std::numeric_limits<double>::infinity();
+  }
   return distances;
 }
 

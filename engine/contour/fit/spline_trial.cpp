@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kSamplesPerControl = 4;
 constexpr std::size_t kFewestSamples = 24;
 constexpr int kCorrections = 4;
+constexpr int kDoublings = 3;             // of the samples, for short spans
 constexpr double kNearlyRight = 3.0;      // times the target
 constexpr double kHopeless = 40.0;        // times the target
 constexpr std::size_t kVeryFewSpans = 4;  // their parametrisation may be far from arc length
@@ -19,6 +20,17 @@ constexpr std::size_t kVeryFewSpans = 4;  // their parametrisation may be far fr
 /// How much longer a span is than one that would just hold the target.
 double relative_length(double distance, double target, int degree) {
   return std::pow(std::max(distance / target, 1e-3), 1.0 / (static_cast<double>(degree) + 1.0));
+}
+
+/// Whether there is a sample for every knot span, by arc length.
+bool each_span_is_sampled(const PlanarCurve& curve, const std::vector<FitSample>& samples) {
+  std::size_t sample = 0;
+  const auto p = static_cast<std::size_t>(curve.degree);
+  for (std::size_t k = p; k + p + 1 < curve.knots.size(); ++k) {
+    while (sample < samples.size() && samples[sample].walked < curve.knots[k]) ++sample;
+    if (sample == samples.size() || samples[sample].walked > curve.knots[k + 1]) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -36,6 +48,9 @@ void SplineTrials::attempt(SplineTrial& trial, Knots knots) {
   const std::size_t spans = trial.spans();
   const std::size_t controls = spans + static_cast<std::size_t>(trial.degree);
   if (kSamplesPerControl * controls > 2 * samples_.size()) take_samples(controls);
+  // A span without a sample is free to dart out.
+  for (int doubling = 1; doubling <= kDoublings && !each_span_is_sampled(trial.curve, samples_); ++doubling)
+    take_samples(controls << doubling);
   // Parameters corrected for a curve that was nearly right are a better start than arc length.
   if (!(latest_greatest_ < kNearlyRight * target_)) {
     for (FitSample& sample : samples_) sample.parameter = sample.walked;

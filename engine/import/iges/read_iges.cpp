@@ -207,6 +207,7 @@ ImportResult read_iges(std::string_view bytes, const std::string& name) {
   Tally skipped;
   EntityReader reader(file, log);
   const References references = find_references(file, reader, log);
+  std::uint32_t solid_count = 0;
   for (std::size_t i = 0; i < file.entries.size(); ++i) {
     const DirectoryEntry& entry = file.entries[i];
     entities.add(entry.type, {}, directory_line(i));
@@ -214,10 +215,12 @@ ImportResult read_iges(std::string_view bytes, const std::string& name) {
     if (type == nullptr || !type->is_shape()) continue;
     const bool is_face = type->read_faces != nullptr;
     if (!reason_to_skip(entry, references.is_owned[i], references.is_grouped[i], is_face).empty()) continue;
+    constexpr int kSolid = 186;
+    const std::uint32_t solid = entry.type == kSolid ? ++solid_count : 0;
     for (TrimmedPatch& patch : reader.faces(i)) {
       result.model.surfaces.push_back({in_millimetres(std::move(patch.nurbs), factor, file, i),
-                                       std::move(patch.trim), entry.type,
-                                       static_cast<int>(directory_line(i))});
+                                       std::move(patch.trim), entry.type, static_cast<int>(directory_line(i)),
+                                       solid});
       made.add(entry.type, {}, directory_line(i));
     }
   }

@@ -209,7 +209,8 @@ class FaceReader {
  public:
   explicit FaceReader(BreachLog& log) : log_(log) {}
 
-  void read(TopoDS_Face face, std::size_t number, Model& model) {
+  /// `solid`: number of the solid that the face is of, 0 where there is none.
+  void read(TopoDS_Face face, std::size_t number, std::uint32_t solid, Model& model) {
     face.Orientation(TopAbs_FORWARD);
     const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
     if (surface.IsNull()) {
@@ -242,7 +243,8 @@ class FaceReader {
       log_.note("face with a coordinate that is no number, left out", "face", number);
       return;
     }
-    model.surfaces.push_back({std::move(patch->nurbs), std::move(patch->trim), 0, static_cast<int>(number)});
+    model.surfaces.push_back(
+        {std::move(patch->nurbs), std::move(patch->trim), 0, static_cast<int>(number), solid});
     ++kinds_[GeomAdaptor_Surface(surface).GetType()];
   }
 
@@ -293,14 +295,21 @@ ImportResult read_shape(const TopoDS_Shape& shape, const std::string& file) {
   BreachLog log;
   FaceReader reader(log);
   std::size_t number = 0;
-  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
-    ++number;
-    try {
-      reader.read(TopoDS::Face(faces.Current()), number, result.model);
-    } catch (const Standard_Failure& failure) {
-      log.note("face that OpenCASCADE cannot convert, left out", "face", number, failure.GetMessageString());
+  const auto read_faces = [&](TopExp_Explorer faces, std::uint32_t solid) {
+    for (; faces.More(); faces.Next()) {
+      ++number;
+      try {
+        reader.read(TopoDS::Face(faces.Current()), number, solid, result.model);
+      } catch (const Standard_Failure& failure) {
+        log.note("face that OpenCASCADE cannot convert, left out", "face", number,
+                 failure.GetMessageString());
+      }
     }
-  }
+  };
+  std::uint32_t solid = 0;
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next())
+    read_faces(TopExp_Explorer(solids.Current(), TopAbs_FACE), ++solid);
+  read_faces(TopExp_Explorer(shape, TopAbs_FACE, TopAbs_SOLID), 0);
   if (result.model.surfaces.empty()) {
     throw ImportError({.file = file},
                       fmt::format("nothing to slice: {} faces, none of which can be used", number),

@@ -81,7 +81,11 @@ class PackageReader {
     }
     const Eigen::Affine3d placement = outer * use.placement;
     spend(object.mesh.facets.size() + 1, fail);
-    if (!object.mesh.facets.empty()) meshes_.push_back(placed(object.mesh, placement, fail));
+    if (!object.mesh.facets.empty()) {
+      // 3MF Core Specification, section 4.1: what overlaps is united.
+      meshes_.push_back(placed(object.mesh, placement, fail));
+      meshes_.back().solid = static_cast<std::uint32_t>(meshes_.size());
+    }
     for (const ObjectUse& component : object.components) place(component, placement, depth + 1);
   }
 

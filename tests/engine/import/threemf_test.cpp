@@ -72,6 +72,7 @@ TEST_CASE("3MF: units, placements of items and components, one mesh for each use
                     "inch")),
       "part.3mf", kRoom);
   REQUIRE(result.model.meshes.size() == 3);
+  for (std::uint32_t k = 0; k < 3; ++k) CHECK(result.model.meshes[k].solid == k + 1);
   CHECK(result.report.unit.millimetres == 25.4);
   const double inch3 = 25.4 * 25.4 * 25.4;
   CHECK(six_volumes(result.model.meshes[0]) == Approx(inch3));

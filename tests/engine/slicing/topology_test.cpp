@@ -246,6 +246,20 @@ TEST_CASE("ends of walls that pass each other sideways are joined over a few eps
   CHECK(report.bridged_gaps.front().width() == Approx(std::hypot(0.03, 0.02)));
 }
 
+TEST_CASE("a needle whose sides have changed places does not vanish", "[slicing]") {
+  // On top of a box a needle 3 mm long and 0.002 mm wide, its left side on the right.
+  const std::vector<Vector2> corners{{0, 0}, {10, 0}, {10, 5}, {5.0, 5}, {5.001, 8}, {5.002, 5}, {0, 5}};
+  std::vector<engine::NurbsSurface> walls;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector2& a = corners[k];
+    const Vector2& b = corners[(k + 1) % corners.size()];
+    walls.push_back(bilinear({a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {a.x(), a.y(), 5}, {b.x(), b.y(), 5}));
+  }
+  const LayerChains chains = chains_at(model_of("needle", walls), 2.0, 0.05);
+  CHECK(std::abs(area_of(chains) - 50.0) < 0.01);
+  CHECK(distance_to_loops({5.001, 8}, loops_of(chains)) < 1e-6);
+}
+
 TEST_CASE("a wall that ends at another is led to it", "[slicing]") {
   // A box with a partition that stops 0.02 mm short of both walls.
   Model model = box({0, 0, 0}, {10, 10, 5}).model;
