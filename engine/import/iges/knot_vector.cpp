@@ -9,7 +9,6 @@
 namespace lamina::engine {
 namespace {
 
-constexpr int kHighestDegree = 25;
 constexpr double kLowestWeight = 1e-12;
 constexpr double kHighestWeight = 1e12;
 
