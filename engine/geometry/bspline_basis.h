@@ -15,8 +15,8 @@ using Knots = std::vector<double>;
 /// domain belongs to the last span of positive length. The NURBS Book, A2.1.
 std::size_t find_span(const Knots& knots, int degree, double t);
 
-/// No curve or surface has a higher degree: readers refuse it.
-inline constexpr int kHighestDegree = 25;
+/// No curve or surface has a higher degree; what readers accept stays far below.
+inline constexpr int kHighestDegree = 63;
 
 /// One value for each basis function that does not vanish on a span, in storage of its own: evaluation takes
 /// no memory from the heap.
