@@ -8,6 +8,7 @@
 #include "engine/contour/slab_chains.h"
 #include "engine/model.h"
 #include "engine/pointcloud/facet_section.h"
+#include "engine/pointcloud/scan_section.h"
 #include "engine/pointcloud/trim_section.h"
 
 namespace lamina::engine {
@@ -17,8 +18,9 @@ namespace {
 constexpr double kSmallestCell = 0.1;
 /// Rounds of halving the distance of a slab's sections.
 constexpr int kMostSlabRounds = 7;
-/// Meshes are numbered after all surfaces that a model can have.
+/// Meshes and scans are numbered after all surfaces that a model can have.
 constexpr std::uint32_t kMeshesFrom = 1U << 31U;
+constexpr std::uint32_t kScansFrom = 3U << 30U;
 /// How far from a level face a section is that does not touch it, mm.
 constexpr double kInside = 10.0 * kModelTolerance;
 
@@ -48,6 +50,11 @@ LayerChains LayerMaker::chains(const FrontState& front, double z, LayerReport& r
     add_trim_edges(section_, *region, z, options_.chord_part * options_.epsilon);
   }
   for (const FrontFacet& facet : front.facets) cut_facet(facet, kMeshesFrom + facet.mesh, z, section_);
+  for (std::size_t k = 0; k < front.scans.size(); ++k) {
+    const auto number = kScansFrom + static_cast<std::uint32_t>(k);
+    for (const BridgedGap& hole : cut_scan(front.scans[k], number, z, options_.longest_bridge, section_))
+      report.bridged_gaps.push_back(hole);
+  }
   report.active_patches = front.patches.size();
   report.active_facets = front.facets.size();
   report.patches_added = front.added;

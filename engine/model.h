@@ -32,12 +32,22 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> facets;  ///< indices of vertices
 };
 
-/// What is sliced: surfaces and triangles in mm that together bound a solid. Nothing is promised about
-/// topology.
+/// Points of a scanned surface as `prepare_scan` leaves them, mm, in no order: outliers taken out.
+struct PointCloud {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;  ///< of unit length, outwards
+  std::vector<float> spacings;           ///< of the points around each one, mm: 1 / sqrt(points per mm^2)
+  double spacing = 0.0;                  ///< that three of four points keep, mm
+  double noise = 0.0;  ///< standard deviation of the points from their neighbours' surface, mm
+};
+
+/// What is sliced: surfaces, triangles and scanned points in mm that together bound a solid. Nothing is
+/// promised about topology.
 struct Model {
   std::string name;  ///< the file's stem
   std::vector<Surface> surfaces;
   std::vector<TriangleMesh> meshes;
+  std::vector<PointCloud> clouds;
 };
 
 /// Distance within which points of the model count as the same and a plane touches it, mm (dissertation p.
@@ -46,6 +56,9 @@ inline constexpr double kModelTolerance = 1e-6;
 
 /// Box around the vertices that facets use.
 Box3 bounds(const TriangleMesh& mesh);
+
+/// Box around the points.
+Box3 bounds(const PointCloud& cloud);
 
 /// Box around all control nets, hence around the model; tight only where the nets are.
 Box3 control_box(const Model& model);
