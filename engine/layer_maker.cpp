@@ -8,6 +8,7 @@
 #include "engine/contour/slab_chains.h"
 #include "engine/model.h"
 #include "engine/pointcloud/facet_section.h"
+#include "engine/pointcloud/scan_section.h"
 #include "engine/pointcloud/trim_section.h"
 
 namespace lamina::engine {
@@ -48,6 +49,11 @@ LayerChains LayerMaker::chains(const FrontState& front, double z, LayerReport& r
   }
   for (const FrontFacet& facet : front.facets)
     cut_facet(facet, SolidNumbers::surface_of_mesh(facet.mesh), z, section_);
+  for (std::size_t k = 0; k < front.scans.size(); ++k) {
+    const std::uint32_t number = SolidNumbers::surface_of_scan(static_cast<std::uint32_t>(k));
+    for (const BridgedGap& hole : cut_scan(front.scans[k], number, z, options_.longest_bridge, section_))
+      report.bridged_gaps.push_back(hole);
+  }
   report.active_patches = front.patches.size();
   report.active_facets = front.facets.size();
   report.patches_added = front.added;

@@ -34,12 +34,23 @@ struct TriangleMesh {
   std::uint32_t solid = 0;                           ///< as that of a surface
 };
 
-/// What is sliced: surfaces and triangles in mm that together bound a solid. Nothing is promised about
-/// topology. Known solids are united, whatever lies in each other; what is of no known solid nests by parity.
+/// Points of a scanned surface as `prepare_scan` leaves them, mm, in no order: outliers taken out.
+struct PointCloud {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;  ///< of unit length, outwards
+  std::vector<float> spacings;           ///< of the points around each one, mm: 1 / sqrt(points per mm^2)
+  double spacing = 0.0;                  ///< that three of four points keep, mm
+  double noise = 0.0;  ///< standard deviation of the points from their neighbours' surface, mm
+};
+
+/// What is sliced: surfaces, triangles and scanned points in mm that together bound a solid. Nothing is
+/// promised about topology. Known solids are united, whatever lies in each other; what is of no known solid
+/// nests by parity.
 struct Model {
   std::string name;  ///< the file's stem
   std::vector<Surface> surfaces;
   std::vector<TriangleMesh> meshes;
+  std::vector<PointCloud> clouds;
 };
 
 /// Distance within which points of the model count as the same and a plane touches it, mm (dissertation p.
@@ -48,6 +59,9 @@ inline constexpr double kModelTolerance = 1e-6;
 
 /// Box around the vertices that facets use.
 Box3 bounds(const TriangleMesh& mesh);
+
+/// Box around the points.
+Box3 bounds(const PointCloud& cloud);
 
 /// Box around all control nets, hence around the model; tight only where the nets are.
 Box3 control_box(const Model& model);

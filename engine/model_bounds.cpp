@@ -52,6 +52,7 @@ void extend_by_trimmed(Box3& known, const Surface& surface) {
 Box3 model_bounds(const Model& model) {
   Box3 known;
   for (const TriangleMesh& mesh : model.meshes) known.extend(bounds(mesh));
+  for (const PointCloud& cloud : model.clouds) known.extend(bounds(cloud));
   for (const Surface& surface : model.surfaces) {
     if (surface.trim.empty()) extend_by_corners(known, surface.nurbs);
   }

@@ -4,8 +4,8 @@
 
 namespace lamina::engine {
 
-/// Box around the surfaces themselves, as far as their trim loops leave them, and the triangles: too large or
-/// too small by at most a micrometre on any side.
+/// Box around the surfaces themselves, as far as their trim loops leave them, the triangles and the
+/// points: too large or too small by at most a micrometre on any side.
 Box3 model_bounds(const Model& model);
 
 }  // namespace lamina::engine

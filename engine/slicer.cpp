@@ -1,15 +1,23 @@
 #include "engine/slicer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/layer_queue.h"
 #include "engine/pointcloud/patch_point.h"
+#include "engine/scan/prepare_scan.h"
 
 namespace lamina::engine {
 namespace {
+
+/// To three digits, such that it is enough.
+double rounded_up(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return std::ceil(value / unit) * unit;
+}
 
 void check(const Model& model, const std::vector<SlicePlane>& planes, const SliceOptions& options) {
   if (!(options.epsilon > 2.0 * kModelTolerance)) {
@@ -36,6 +44,14 @@ void check(const Model& model, const std::vector<SlicePlane>& planes, const Slic
                                    surface.directory_line, degree, kHighestPatchDegree));
     }
   }
+  for (const PointCloud& cloud : model.clouds) {
+    const double served = served_epsilon(cloud);
+    if (options.epsilon >= served) continue;
+    throw SliceError(fmt::format(
+        "the scan is too sparse for a tolerance of {} mm: its points are {:.3g} mm apart with {:.2g} mm of "
+        "noise, which serves {:.3g} mm: slice it with that tolerance, or scan it more densely",
+        options.epsilon, cloud.spacing, cloud.noise, rounded_up(served)));
+  }
 }
 
 std::vector<SlicePlane> checked(const Model& model, std::vector<SlicePlane> planes,
@@ -51,6 +67,7 @@ Slicer::Slicer(const Model& model, std::vector<SlicePlane> planes, const SliceOp
       contained_(options.containment != Containment::kNominal),
       patches_(model),
       facets_(model),
+      scans_(model),
       queue_(std::make_unique<LayerQueue>(options, SolidNumbers(model))) {}
 
 Slicer::~Slicer() = default;
@@ -64,8 +81,10 @@ std::optional<Layer> Slicer::next() {
     const double reach = contained_ ? 0.5 * plane.thickness() + kModelTolerance : kModelTolerance;
     patches_.advance(middle, reach);
     facets_.advance(middle, reach);
+    scans_.advance(middle, reach);
     FrontState front = patches_.state();
     front.facets = facets_.active();
+    front.scans = scans_.active();
     front.added += facets_.added();
     front.removed += facets_.removed();
     queue_->push(std::move(front), plane, next_plane_++);

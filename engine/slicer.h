@@ -10,6 +10,7 @@
 #include "engine/model.h"
 #include "engine/pointcloud/facet_front.h"
 #include "engine/pointcloud/patch_front.h"
+#include "engine/pointcloud/scan_front.h"
 #include "engine/slice_options.h"
 
 namespace lamina::engine {
@@ -29,7 +30,7 @@ struct SliceError : std::runtime_error {
 class Slicer {
  public:
   /// Planes must rise. Throws SliceError when an option is out of its range, a plane lies below its
-  /// predecessor, or a surface has too high a degree.
+  /// predecessor, a surface has too high a degree, or a scan is too sparse for epsilon.
   Slicer(const Model& model, std::vector<SlicePlane> planes, const SliceOptions& options);
   ~Slicer();
   Slicer(Slicer&&) noexcept;
@@ -47,6 +48,7 @@ class Slicer {
   bool contained_ = false;  ///< layers stand for their slabs
   PatchFront patches_;
   FacetFront facets_;
+  ScanFront scans_;
   std::unique_ptr<LayerQueue> queue_;
   std::size_t next_plane_ = 0;
 };

@@ -61,6 +61,11 @@ class Profiler {
     }
   }
 
+  /// A point of a scan stands for the surface around it.
+  void add(const Vector3& point, const Vector3& normal, double spacing) {
+    record({point.z() - 0.5 * spacing, point.z() + 0.5 * spacing}, std::abs(normal.z()));
+  }
+
   SlopeProfile finish() {
     std::sort(level_.begin(), level_.end(), [](const LevelFace& a, const LevelFace& b) { return a.z < b.z; });
     for (const LevelFace& face : level_) {
@@ -157,6 +162,10 @@ SlopeProfile measure_slopes(const Model& model, double bottom, double top, doubl
   for (const TriangleMesh& mesh : model.meshes) {
     const auto vertex = [&](std::uint32_t v) { return Vector3(mesh.vertices[v].cast<double>()); };
     for (const auto& facet : mesh.facets) profiler.add(vertex(facet[0]), vertex(facet[1]), vertex(facet[2]));
+  }
+  for (const PointCloud& cloud : model.clouds) {
+    for (std::size_t i = 0; i < cloud.points.size(); ++i)
+      profiler.add(cloud.points[i].cast<double>(), cloud.normals[i].cast<double>(), cloud.spacings[i]);
   }
   return profiler.finish();
 }

@@ -13,7 +13,7 @@ SolidNumbers::SolidNumbers(const Model& model) {
 }
 
 std::uint32_t SolidNumbers::of(const SectionArc& arc) const {
-  if (none_) return 0;
+  if (none_ || arc.surface >= kScansFrom) return 0;
   return arc.surface < kMeshesFrom ? surfaces_[arc.surface] : meshes_[arc.surface - kMeshesFrom];
 }
 

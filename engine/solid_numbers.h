@@ -20,12 +20,14 @@ class SolidNumbers {
 
   bool none() const { return none_; }
 
-  /// What arcs cut from a mesh have as their surface.
+  /// What arcs cut from a mesh, or from a scan, have as their surface.
   static std::uint32_t surface_of_mesh(std::uint32_t mesh) { return kMeshesFrom + mesh; }
+  static std::uint32_t surface_of_scan(std::uint32_t scan) { return kScansFrom + scan; }
 
  private:
-  /// Meshes are numbered after all surfaces that a model can have.
+  /// Meshes and scans are numbered after all surfaces that a model can have.
   static constexpr std::uint32_t kMeshesFrom = 1U << 31U;
+  static constexpr std::uint32_t kScansFrom = 3U << 30U;
 
   std::vector<std::uint32_t> surfaces_;
   std::vector<std::uint32_t> meshes_;

@@ -5,6 +5,37 @@
 
 namespace lamina::engine {
 
+namespace {
+
+/// Turns the values of degree `low` on a span into those of the next degree.
+void raise_values(const Knots& knots, int low, std::size_t span, double t, BasisRow& values) {
+  const auto count = static_cast<std::size_t>(low) + 1;
+  double saved = 0.0;
+  for (std::size_t r = 0; r < count; ++r) {
+    const double right = knots[span + 1 + r];
+    const double left = knots[span + 1 + r - count];
+    const double term = values[r] / ((right - t) + (t - left));
+    values[r] = saved + (right - t) * term;
+    saved = (t - left) * term;
+  }
+  values[count] = saved;
+}
+
+/// Turns k-th derivatives of degree `low` into the next derivatives of the next degree.
+void raise_derivatives(const Knots& knots, int low, std::size_t span, BasisRow& row) {
+  const auto count = static_cast<std::size_t>(low) + 1;
+  double saved = 0.0;
+  for (std::size_t r = 0; r < count; ++r) {
+    const double steep =
+        static_cast<double>(count) * row[r] / (knots[span + 1 + r] - knots[span + 1 + r - count]);
+    row[r] = saved - steep;
+    saved = steep;
+  }
+  row[count] = saved;
+}
+
+}  // namespace
+
 std::size_t find_span(const Knots& knots, int degree, double t) {
   const auto p = static_cast<std::ptrdiff_t>(degree);
   const auto first = knots.begin() + p;
@@ -17,47 +48,30 @@ std::size_t find_span(const Knots& knots, int degree, double t) {
   return static_cast<std::size_t>(upper - knots.begin()) - 1;
 }
 
-std::vector<double> basis_functions(const Knots& knots, int degree, std::size_t span, double t) {
-  const auto p = static_cast<std::size_t>(degree);
-  std::vector<double> values(p + 1, 0.0);
-  std::vector<double> left(p + 1, 0.0);
-  std::vector<double> right(p + 1, 0.0);
+BasisRow basis_functions(const Knots& knots, int degree, std::size_t span, double t) {
+  BasisRow values(degree);
   values[0] = 1.0;
-  for (std::size_t j = 1; j <= p; ++j) {
-    left[j] = t - knots[span + 1 - j];
-    right[j] = knots[span + j] - t;
-    double saved = 0.0;
-    for (std::size_t r = 0; r < j; ++r) {
-      const double term = values[r] / (right[r + 1] + left[j - r]);
-      values[r] = saved + right[r + 1] * term;
-      saved = left[j - r] * term;
-    }
-    values[j] = saved;
-  }
+  for (int low = 0; low < degree; ++low) raise_values(knots, low, span, t, values);
   return values;
 }
 
-std::vector<std::vector<double>> basis_derivatives(const Knots& knots, int degree, std::size_t span, double t,
-                                                   int order) {
-  const auto p = static_cast<std::size_t>(degree);
-  const auto highest = static_cast<std::size_t>(order);
-  // The k-th derivative of a basis function of degree p is a combination of functions of degree p - 1 (The
-  // NURBS Book, equation 2.7), so each row is built from the rows of one degree less.
-  std::vector<std::vector<double>> rows(highest + 1, std::vector<double>(p + 1, 0.0));
-  for (std::size_t k = 0; k <= highest && k <= p; ++k) {
-    std::vector<double> values = basis_functions(knots, static_cast<int>(p - k), span, t);
-    for (std::size_t q = p - k + 1; q <= p; ++q) {  // raise the degree, differentiating each time
-      std::vector<double> raised(q + 1, 0.0);
-      for (std::size_t r = 0; r <= q; ++r) {
-        const std::size_t i = span - q + r;  // index of the function of degree q
-        double derivative = 0.0;
-        if (r > 0) derivative += values[r - 1] / (knots[i + q] - knots[i]);
-        if (r < q) derivative -= values[r] / (knots[i + q + 1] - knots[i + 1]);
-        raised[r] = static_cast<double>(q) * derivative;
-      }
-      values = std::move(raised);
+std::array<BasisRow, 3> basis_derivatives(const Knots& knots, int degree, std::size_t span, double t) {
+  // The k-th derivative of a basis function of degree p is a combination of functions of degree p - k (The
+  // NURBS Book, equation 2.7): they all come by on the way up.
+  std::array<BasisRow, 3> rows{BasisRow(degree), BasisRow(degree), BasisRow(degree)};
+  auto& [values, first, second] = rows;
+  values[0] = 1.0;
+  for (int low = 0; low < degree; ++low) {
+    if (low == degree - 2) {
+      second = values;
+      raise_derivatives(knots, low, span, second);
     }
-    rows[k] = std::move(values);
+    if (low == degree - 1) {
+      first = values;
+      raise_derivatives(knots, low, span, first);
+      if (degree > 1) raise_derivatives(knots, low, span, second);
+    }
+    raise_values(knots, low, span, t, values);
   }
   return rows;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -13,14 +15,38 @@ using Knots = std::vector<double>;
 /// domain belongs to the last span of positive length. The NURBS Book, A2.1.
 std::size_t find_span(const Knots& knots, int degree, double t);
 
+/// No curve or surface has a higher degree; what readers accept stays far below.
+inline constexpr int kHighestDegree = 63;
+
+/// One value for each basis function that does not vanish on a span, in storage of its own: evaluation takes
+/// no memory from the heap.
+class BasisRow {
+ public:
+  explicit BasisRow(int degree) : size_(static_cast<std::size_t>(degree) + 1) {
+    assert(0 <= degree && degree <= kHighestDegree);
+    for (double& value : *this) value = 0.0;
+  }
+
+  std::size_t size() const { return size_; }
+  double& operator[](std::size_t i) { return values_[i]; }
+  double operator[](std::size_t i) const { return values_[i]; }
+  double* begin() { return values_.data(); }
+  double* end() { return values_.data() + size_; }
+  const double* begin() const { return values_.data(); }
+  const double* end() const { return values_.data() + size_; }
+
+ private:
+  std::size_t size_;
+  std::array<double, kHighestDegree + 1> values_;
+};
+
 /// The `degree + 1` basis functions that do not vanish on `span`, at t; they sum to one. The first belongs to
 /// control point `span - degree`. The NURBS Book, A2.2.
-std::vector<double> basis_functions(const Knots& knots, int degree, std::size_t span, double t);
+BasisRow basis_functions(const Knots& knots, int degree, std::size_t span, double t);
 
-/// Values and derivatives: row k holds the k-th derivatives of the non-vanishing basis functions, k = 0 ...
-/// `order`. Rows above the degree are zero. The NURBS Book, A2.3.
-std::vector<std::vector<double>> basis_derivatives(const Knots& knots, int degree, std::size_t span, double t,
-                                                   int order);
+/// Values, first and second derivatives of the non-vanishing basis functions. Rows above the degree are zero.
+/// The NURBS Book, A2.3.
+std::array<BasisRow, 3> basis_derivatives(const Knots& knots, int degree, std::size_t span, double t);
 
 /// Values of the `degree + 1` Bernstein polynomials at t in [0, 1]. The NURBS Book, A1.3.
 std::vector<double> bernstein(int degree, double t);

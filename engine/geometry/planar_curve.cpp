@@ -6,7 +6,7 @@
 namespace lamina::engine {
 namespace {
 
-Vector2 combine(const PlanarCurve& curve, std::size_t span, const std::vector<double>& basis) {
+Vector2 combine(const PlanarCurve& curve, std::size_t span, const BasisRow& basis) {
   Vector2 sum = Vector2::Zero();
   const std::size_t first = span - static_cast<std::size_t>(curve.degree);
   for (std::size_t r = 0; r < basis.size(); ++r) sum += basis[r] * curve.control_points[first + r];
@@ -48,7 +48,7 @@ Vector2 evaluate(const PlanarCurve& curve, double t) {
 
 Vector2 evaluate_derivative(const PlanarCurve& curve, double t) {
   const std::size_t span = find_span(curve.knots, curve.degree, t);
-  return combine(curve, span, basis_derivatives(curve.knots, curve.degree, span, t, 1)[1]);
+  return combine(curve, span, basis_derivatives(curve.knots, curve.degree, span, t)[1]);
 }
 
 Polyline flatten(const PlanarCurve& curve, double tolerance) {

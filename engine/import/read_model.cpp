@@ -12,6 +12,9 @@
 #include "engine/import/iges/read_iges.h"
 #include "engine/import/import_error.h"
 #include "engine/import/obj/read_obj.h"
+#include "engine/import/scan/read_pcd.h"
+#include "engine/import/scan/read_ply.h"
+#include "engine/import/scan/read_xyz.h"
 #include "engine/import/step/read_step.h"
 #include "engine/import/stl/read_stl.h"
 #include "engine/import/threemf/read_3mf.h"
@@ -42,10 +45,6 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-bool has_prefix(std::string_view bytes, std::string_view prefix) {
-  return bytes.substr(0, prefix.size()) == prefix;
-}
-
 /// A format that can be read.
 struct Format {
   std::string_view extensions;  ///< blank-separated, lower case
@@ -66,19 +65,18 @@ constexpr auto kFormats = std::to_array<Format>({
      [](std::string_view bytes, const std::string& file, std::size_t) { return read_stl(bytes, file); }},
     {".obj", looks_like_obj,
      [](std::string_view bytes, const std::string& file, std::size_t) { return read_obj(bytes, file); }},
+    {".ply", looks_like_ply,
+     [](std::string_view bytes, const std::string& file, std::size_t) { return read_ply(bytes, file); }},
+    {".pcd", looks_like_pcd, read_pcd},
+    {".xyz .pts .asc", looks_like_xyz,
+     [](std::string_view bytes, const std::string& file, std::size_t) { return read_xyz(bytes, file); }},
 });
-
-/// What the content is where it is a known format that cannot be read; empty where it is not.
-std::string_view known_but_unreadable(std::string_view bytes) {
-  if (has_prefix(bytes, "ply\n") || has_prefix(bytes, "ply\r")) return "PLY";
-  return {};
-}
 
 const Format* find_format(std::string_view bytes, const std::string& extension) {
   for (const Format& format : kFormats) {
     if (format.is_content(bytes)) return &format;
   }
-  if (!known_but_unreadable(bytes).empty() || extension.size() < 2) return nullptr;
+  if (extension.size() < 2) return nullptr;
   for (const Format& format : kFormats) {
     const std::string list = std::string(format.extensions) + " ";
     if (list.find(extension + " ") != std::string::npos) return &format;
@@ -99,10 +97,8 @@ ImportResult read_model(const std::filesystem::path& path, std::size_t max_bytes
   if (bytes.empty()) throw ImportError({.file = file}, "is empty");
   const Format* format = find_format(bytes, lower_case(plain_name.extension().string()));
   if (format == nullptr) {
-    const std::string_view known = known_but_unreadable(bytes);
-    const std::string_view guess = known.empty() ? "no model format that lamina knows" : known;
-    throw ImportError({.file = file}, fmt::format("holds {}", guess),
-                      "IGES, STEP, STL, OBJ and 3MF can be read, also with .gz");
+    throw ImportError({.file = file}, "holds no model format that lamina knows",
+                      "IGES, STEP, STL, OBJ, 3MF, PLY, PCD and XYZ can be read, also with .gz");
   }
   ImportResult result = format->read(bytes, file, max_bytes);
   result.model.name = plain_name.stem().string();

@@ -55,6 +55,11 @@ set(LAMINA_ENGINE_IMPORT_SOURCES
   import/mesh/vertex_welder.cpp
   import/obj/read_obj.cpp
   import/read_model.cpp
+  import/scan/lzf.cpp
+  import/scan/read_pcd.cpp
+  import/scan/read_ply.cpp
+  import/scan/read_xyz.cpp
+  import/scan/scan_builder.cpp
   import/stl/binary_stl.cpp
   import/stl/read_stl.cpp
   import/stl/text_stl.cpp

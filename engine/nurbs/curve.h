@@ -21,6 +21,15 @@ struct NurbsCurve {
 /// Point at parameter t of the curve's domain. The NURBS Book, A4.1.
 Vector3 evaluate(const NurbsCurve& curve, double t);
 
+/// A curve point with its derivative.
+struct CurveDerivative {
+  Vector3 point;
+  Vector3 tangent;
+};
+
+/// Point and first derivative at t. The NURBS Book, A3.2 and equation 4.8.
+CurveDerivative evaluate_derivative(const NurbsCurve& curve, double t);
+
 /// Homogeneous control point of a Cartesian point and its weight.
 inline Vector4 homogeneous(const Vector3& point, double weight = 1.0) {
   return {point.x() * weight, point.y() * weight, point.z() * weight, weight};

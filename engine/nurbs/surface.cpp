@@ -2,34 +2,29 @@
 
 #include <array>
 
-#include "engine/nurbs/curve.h"
-
 namespace lamina::engine {
 namespace {
 
-constexpr int kHighestOrder = 2;
-
-/// Homogeneous derivatives: entry [k][l] is the k-th in u and l-th in v (The NURBS Book, A3.6).
+/// Homogeneous derivatives up to the second: entry [k][l] is the k-th in u and l-th in v, k + l <= 2 (The
+/// NURBS Book, A3.6).
 std::array<std::array<Vector4, 3>, 3> homogeneous_derivatives(const NurbsSurface& surface, double u,
                                                               double v) {
   const std::size_t span_u = find_span(surface.knots_u, surface.degree_u, u);
   const std::size_t span_v = find_span(surface.knots_v, surface.degree_v, v);
-  const auto basis_u = basis_derivatives(surface.knots_u, surface.degree_u, span_u, u, kHighestOrder);
-  const auto basis_v = basis_derivatives(surface.knots_v, surface.degree_v, span_v, v, kHighestOrder);
+  const auto basis_u = basis_derivatives(surface.knots_u, surface.degree_u, span_u, u);
+  const auto basis_v = basis_derivatives(surface.knots_v, surface.degree_v, span_v, v);
   const std::size_t first_u = span_u - static_cast<std::size_t>(surface.degree_u);
   const std::size_t first_v = span_v - static_cast<std::size_t>(surface.degree_v);
   std::array<std::array<Vector4, 3>, 3> derivatives;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t l = 0; l < 3; ++l) {
-      Vector4 sum = Vector4::Zero();
-      for (std::size_t i = 0; i < basis_u[k].size(); ++i) {
-        Vector4 row = Vector4::Zero();
-        for (std::size_t j = 0; j < basis_v[l].size(); ++j) {
-          row += basis_v[l][j] * surface.net.at(first_u + i, first_v + j);
-        }
-        sum += basis_u[k][i] * row;
-      }
-      derivatives[k][l] = sum;
+  for (auto& row : derivatives) row.fill(Vector4::Zero());
+  for (std::size_t i = 0; i < basis_u[0].size(); ++i) {
+    std::array<Vector4, 3> row{Vector4::Zero(), Vector4::Zero(), Vector4::Zero()};
+    for (std::size_t j = 0; j < basis_v[0].size(); ++j) {
+      const Vector4& point = surface.net.at(first_u + i, first_v + j);
+      for (std::size_t l = 0; l < 3; ++l) row[l] += basis_v[l][j] * point;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t l = 0; k + l < 3; ++l) derivatives[k][l] += basis_u[k][i] * row[l];
     }
   }
   return derivatives;
@@ -40,8 +35,8 @@ std::array<std::array<Vector4, 3>, 3> homogeneous_derivatives(const NurbsSurface
 Vector3 evaluate(const NurbsSurface& surface, double u, double v) {
   const std::size_t span_u = find_span(surface.knots_u, surface.degree_u, u);
   const std::size_t span_v = find_span(surface.knots_v, surface.degree_v, v);
-  const std::vector<double> basis_u = basis_functions(surface.knots_u, surface.degree_u, span_u, u);
-  const std::vector<double> basis_v = basis_functions(surface.knots_v, surface.degree_v, span_v, v);
+  const BasisRow basis_u = basis_functions(surface.knots_u, surface.degree_u, span_u, u);
+  const BasisRow basis_v = basis_functions(surface.knots_v, surface.degree_v, span_v, v);
   const std::size_t first_u = span_u - static_cast<std::size_t>(surface.degree_u);
   const std::size_t first_v = span_v - static_cast<std::size_t>(surface.degree_v);
   Vector4 sum = Vector4::Zero();
@@ -68,6 +63,19 @@ SurfaceDerivatives evaluate_derivatives(const NurbsSurface& surface, double u, d
   d.dvv = (numerator(0, 2) - 2.0 * weight(0, 1) * d.dv - weight(0, 2) * d.point) / w;
   d.duv = (numerator(1, 1) - weight(1, 0) * d.dv - weight(0, 1) * d.du - weight(1, 1) * d.point) / w;
   return d;
+}
+
+NurbsCurve isoparametric_curve(const NurbsSurface& surface, double u) {
+  const std::size_t span = find_span(surface.knots_u, surface.degree_u, u);
+  const BasisRow basis = basis_functions(surface.knots_u, surface.degree_u, span, u);
+  const std::size_t first = span - static_cast<std::size_t>(surface.degree_u);
+  NurbsCurve curve{surface.degree_v, surface.knots_v, {}};
+  curve.control_points.assign(surface.net.count_v, Vector4::Zero());
+  for (std::size_t i = 0; i < basis.size(); ++i) {
+    for (std::size_t j = 0; j < surface.net.count_v; ++j)
+      curve.control_points[j] += basis[i] * surface.net.at(first + i, j);
+  }
+  return curve;
 }
 
 Box3 control_box(const ControlNet& net) {

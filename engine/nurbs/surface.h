@@ -5,6 +5,7 @@
 
 #include "engine/geometry/bspline_basis.h"
 #include "engine/geometry/vector.h"
+#include "engine/nurbs/curve.h"
 
 namespace lamina::engine {
 
@@ -49,6 +50,9 @@ Vector3 evaluate(const NurbsSurface& surface, double u, double v);
 
 /// Point and partial derivatives up to the second. The NURBS Book, A3.6 and A4.4.
 SurfaceDerivatives evaluate_derivatives(const NurbsSurface& surface, double u, double v);
+
+/// The curve along v at u: a point of the domain. The NURBS Book, section 4.4.
+NurbsCurve isoparametric_curve(const NurbsSurface& surface, double u);
 
 /// Smallest box around the control points; it contains the surface (convex-hull property, weights positive).
 Box3 control_box(const ControlNet& net);

@@ -13,6 +13,7 @@
 
 namespace lamina::engine {
 
+class ScanField;
 class TrimRegion;
 
 /// A Bezier patch that the current plane may meet. Its control net is cut out of the surface by whoever asks
@@ -56,12 +57,19 @@ struct FrontFacet {
   std::uint32_t mesh = 0;  ///< of the model
 };
 
+/// A scanned surface that the current plane may meet.
+struct FrontScan {
+  std::shared_ptr<const ScanField> field;
+  std::vector<std::uint32_t> points;  ///< those near the plane
+};
+
 /// What a plane may meet of the model, in the order in which the plane reached it.
 struct FrontState {
   std::vector<std::shared_ptr<const FrontPatch>> patches;
   std::vector<FrontFacet> facets;
   std::vector<std::shared_ptr<const TrimRegion>>
-      regions;              ///< trimmed surfaces whose trim curves the plane may meet
+      regions;  ///< trimmed surfaces whose trim curves the plane may meet
+  std::vector<FrontScan> scans;
   std::size_t added = 0;    ///< by the last advance, patches and facets
   std::size_t removed = 0;  ///< by the last advance
 };

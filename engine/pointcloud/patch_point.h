@@ -1,13 +1,14 @@
 #pragma once
 
+#include "engine/geometry/bspline_basis.h"
 #include "engine/geometry/vector.h"
 #include "engine/pointcloud/front_state.h"
 #include "engine/pointcloud/section_arc.h"
 
 namespace lamina::engine {
 
-/// Highest degree that is sliced; IGES and STEP files stay far below.
-inline constexpr int kHighestPatchDegree = 63;
+/// Highest degree that is sliced.
+inline constexpr int kHighestPatchDegree = kHighestDegree;
 
 enum class Direction { kU, kV };
 

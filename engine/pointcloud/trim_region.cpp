@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/geometry/bspline_basis.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kRelativeTolerance = 1e-4;
 constexpr int kDeepestHalving = 12;
+constexpr std::size_t kFewBreaks = 4;
 
 Vector2 at(const NurbsCurve& curve, double t) {
   return evaluate(curve, t).head<2>();
@@ -45,11 +47,10 @@ TrimRegion::TrimRegion(const Surface& surface, std::uint32_t number)
     for (std::uint32_t e = first; e < last; ++e) {
       const std::vector<EdgeSample>& edge = samples_[e];
       for (std::size_t k = 1; k < edge.size(); ++k) {
-        chords_.push_back({edge[k - 1].parameters, edge[k].parameters, e, edge[k - 1].t, edge[k].t});
+        chords_.push_back({edge[k - 1].parameters, edge[k].parameters, e, static_cast<std::uint32_t>(k - 1)});
       }
       const Vector2& next = samples_[e + 1 == last ? first : e + 1].front().parameters;
-      if (edge.back().parameters != next)
-        chords_.push_back({edge.back().parameters, next, kNoEdge, 0.0, 0.0});
+      if (edge.back().parameters != next) chords_.push_back({edge.back().parameters, next, kNoEdge, 0});
     }
   }
   z_min_ = std::numeric_limits<double>::infinity();
@@ -67,29 +68,33 @@ TrimRegion::TrimRegion(const Surface& surface, std::uint32_t number)
 
 void TrimRegion::sample_edge(const NurbsCurve& curve, double tolerance) {
   std::vector<EdgeSample>& samples = samples_.emplace_back();
-  const auto lifted = [&](double t) {
-    const Vector2 p = at(curve, t);
+  const auto lifted = [&](double t, const Vector2& p) {
     return EdgeSample{t, p, evaluate(surface_, p.x(), p.y())};
   };
   const std::vector<double> breaks = break_points(curve.knots, curve.degree);
-  samples.push_back(lifted(breaks.front()));
+  // A curve of few spans may turn more often than two points tell.
+  const int least_depth = curve.degree > 1 && breaks.size() <= kFewBreaks ? 2 : 0;
+  samples.push_back(lifted(breaks.front(), at(curve, breaks.front())));
   // Halves a span until its chords are near, looking at two points so that an inflection is not overlooked.
   const auto halve = [&](auto&& self, const EdgeSample& from, const EdgeSample& to, int depth) -> void {
     const double step = to.t - from.t;
-    const bool near =
-        distance_to_line(at(curve, from.t + 0.5 * step), from.parameters, to.parameters) <= tolerance &&
-        distance_to_line(at(curve, from.t + 0.27 * step), from.parameters, to.parameters) <= tolerance;
-    if (depth >= kDeepestHalving || (near && depth >= (curve.degree > 1 ? 2 : 0))) {
+    const auto is_near = [&](const Vector2& point) {
+      return distance_to_line(point, from.parameters, to.parameters) <= tolerance;
+    };
+    const double t = from.t + 0.5 * step;
+    const Vector2 middle = at(curve, t);
+    if (depth >= kDeepestHalving ||
+        (depth >= least_depth && is_near(middle) && is_near(at(curve, from.t + 0.27 * step)))) {
       samples.push_back(to);
       return;
     }
-    const EdgeSample middle = lifted(0.5 * (from.t + to.t));
-    self(self, from, middle, depth + 1);
-    self(self, middle, to, depth + 1);
+    const EdgeSample between = lifted(t, middle);
+    self(self, from, between, depth + 1);
+    self(self, between, to, depth + 1);
   };
   for (std::size_t k = 1; k < breaks.size(); ++k) {
     const EdgeSample from = samples.back();
-    halve(halve, from, lifted(breaks[k]), 0);
+    halve(halve, from, lifted(breaks[k], at(curve, breaks[k])), 0);
   }
 }
 
@@ -100,18 +105,24 @@ void TrimRegion::fill_buckets() {
     v_low_ = std::min({v_low_, chord.a.y(), chord.b.y()});
     high = std::max({high, chord.a.y(), chord.b.y()});
   }
-  buckets_.resize(1 + chords_.size() / 4);
-  bucket_height_ =
-      std::max((high - v_low_) / static_cast<double>(buckets_.size()), std::numeric_limits<double>::min());
-  for (std::uint32_t c = 0; c < chords_.size(); ++c) {
-    const auto [low, top] = std::minmax(chords_[c].a.y(), chords_[c].b.y());
-    for (std::size_t k = bucket_of(low); k <= bucket_of(top); ++k) buckets_[k].push_back(c);
-  }
+  const std::size_t count = 1 + chords_.size() / 4;
+  bucket_height_ = std::max((high - v_low_) / static_cast<double>(count), std::numeric_limits<double>::min());
+  bucket_ends_.assign(count + 1, 0);
+  const auto for_each_bucket = [&](const Chord& chord, auto visit) {
+    const auto [low, top] = std::minmax(chord.a.y(), chord.b.y());
+    for (std::size_t k = bucket_of(low); k <= bucket_of(top); ++k) visit(k);
+  };
+  for (const Chord& chord : chords_) for_each_bucket(chord, [&](std::size_t k) { ++bucket_ends_[k + 1]; });
+  std::partial_sum(bucket_ends_.begin(), bucket_ends_.end(), bucket_ends_.begin());
+  bucket_chords_.resize(bucket_ends_.back());
+  std::vector<std::uint32_t> next(bucket_ends_.begin(), bucket_ends_.end() - 1);
+  for (std::uint32_t c = 0; c < chords_.size(); ++c)
+    for_each_bucket(chords_[c], [&](std::size_t k) { bucket_chords_[next[k]++] = c; });
 }
 
 std::size_t TrimRegion::bucket_of(double v) const {
   const double k = std::floor((v - v_low_) / bucket_height_);
-  return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(buckets_.size() - 1)));
+  return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(bucket_ends_.size() - 2)));
 }
 
 template <typename Visit>
@@ -119,8 +130,8 @@ void TrimRegion::for_each_chord(double v_low, double v_high, Visit visit) const 
   const std::size_t first = bucket_of(v_low);
   const std::size_t last = bucket_of(v_high);
   for (std::size_t k = first; k <= last; ++k) {
-    for (const std::uint32_t c : buckets_[k]) {
-      const Chord& chord = chords_[c];
+    for (std::uint32_t at = bucket_ends_[k]; at < bucket_ends_[k + 1]; ++at) {
+      const Chord& chord = chords_[bucket_chords_[at]];
       const double low = std::min(chord.a.y(), chord.b.y());
       // In the first bucket of the interval that holds it.
       if (k == std::max(first, bucket_of(low))) visit(chord);
@@ -154,33 +165,60 @@ bool TrimRegion::contains(const Vector2& p) const {
 }
 
 TrimPlace TrimRegion::place_of(const Vector2& low, const Vector2& high) const {
+  const Box2 box(low, high);
   bool cut = false;
-  for_each_chord(low.y(), high.y(), [&](const Chord& chord) {
-    cut = cut ||
-          (std::max(chord.a.x(), chord.b.x()) >= low.x() && std::min(chord.a.x(), chord.b.x()) <= high.x() &&
-           std::max(chord.a.y(), chord.b.y()) >= low.y() && std::min(chord.a.y(), chord.b.y()) <= high.y());
-  });
+  for_each_chord(low.y(), high.y(), [&](const Chord& chord) { cut = cut || chord.meets(box); });
   if (cut) return TrimPlace::kCut;
   return contains(0.5 * (low + high)) ? TrimPlace::kInside : TrimPlace::kOutside;
 }
 
-std::vector<TrimCrossing> TrimRegion::crossings(const Vector2& from, const Vector2& to) const {
-  std::vector<TrimCrossing> result;
+void TrimRegion::cross_chord(const Vector2& from, const Vector2& to, std::size_t side, const Chord& chord,
+                             std::vector<TrimCrossing>& found) const {
   const Vector2 line = to - from;
-  for_each_chord(std::min(from.y(), to.y()), std::max(from.y(), to.y()), [&](const Chord& chord) {
-    const Vector2 side = chord.b - chord.a;
-    const double side_a = cross(line, chord.a - from);
-    const double side_b = cross(line, chord.b - from);
-    if ((side_a > 0.0) == (side_b > 0.0)) return;
-    const double determinant = cross(line, side);
-    if (determinant == 0.0) return;
-    const double along = cross(chord.a - from, side) / determinant;
-    if (!(along >= 0.0 && along <= 1.0)) return;
-    result.push_back({along, chord.edge, chord.low, chord.high});
+  const Vector2 way = chord.b - chord.a;
+  const double side_a = cross(line, chord.a - from);
+  const double side_b = cross(line, chord.b - from);
+  if ((side_a > 0.0) == (side_b > 0.0)) return;
+  const double determinant = cross(line, way);
+  if (determinant == 0.0) return;
+  const double along = cross(chord.a - from, way) / determinant;
+  if (along >= 0.0 && along <= 1.0) found.push_back({side, along, chord.edge, chord.sample});
+}
+
+/// Of the points [first, last] of the line. `near` holds, from `first_near` on, the chords that may meet it.
+void TrimRegion::find_crossings(const std::vector<Vector2>& line, std::size_t first, std::size_t last,
+                                std::size_t first_near, std::vector<std::uint32_t>& near,
+                                std::vector<TrimCrossing>& found) const {
+  Box2 box;
+  for (std::size_t k = first; k <= last; ++k) box.extend(line[k]);
+  const std::size_t end = near.size();
+  for (std::size_t k = first_near; k < end; ++k) {
+    if (chords_[near[k]].meets(box)) near.push_back(near[k]);
+  }
+  if (near.size() > end && last - first > 1) {
+    const std::size_t middle = (first + last) / 2;
+    find_crossings(line, first, middle, end, near, found);
+    find_crossings(line, middle, last, end, near, found);
+  } else {
+    const std::size_t before = found.size();
+    for (std::size_t k = end; k < near.size(); ++k)
+      cross_chord(line[first], line[last], first, chords_[near[k]], found);
+    std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(),
+              [](const TrimCrossing& a, const TrimCrossing& b) { return a.along < b.along; });
+  }
+  near.resize(end);
+}
+
+std::vector<TrimCrossing> TrimRegion::crossings(const std::vector<Vector2>& line) const {
+  Box2 box;
+  for (const Vector2& point : line) box.extend(point);
+  std::vector<std::uint32_t> near;
+  for_each_chord(box.min().y(), box.max().y(), [&](const Chord& chord) {
+    if (chord.meets(box)) near.push_back(static_cast<std::uint32_t>(&chord - chords_.data()));
   });
-  std::sort(result.begin(), result.end(),
-            [](const TrimCrossing& a, const TrimCrossing& b) { return a.along < b.along; });
-  return result;
+  std::vector<TrimCrossing> found;
+  if (!near.empty()) find_crossings(line, 0, line.size() - 1, 0, near, found);
+  return found;
 }
 
 }  // namespace lamina::engine

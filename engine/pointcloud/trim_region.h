@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,12 +12,12 @@ namespace lamina::engine {
 
 enum class TrimPlace { kInside, kOutside, kCut };
 
-/// Where a straight line in the parameter plane meets a trim curve.
+/// Where a line of straight sides in the parameter plane meets a trim curve.
 struct TrimCrossing {
-  double along = 0.0;  ///< the line, 0 to 1
+  std::size_t side = 0;  ///< of the line: from its point `side` to the next
+  double along = 0.0;    ///< that side, 0 to 1
   std::uint32_t edge = 0;
-  double low = 0.0;  ///< the curve's parameters between which it is met
-  double high = 0.0;
+  std::uint32_t sample = 0;  ///< of the edge: it is met between this one and the next
 };
 
 /// A trim curve lifted onto its surface at one parameter.
@@ -50,8 +51,8 @@ class TrimRegion {
 
   bool contains(const Vector2& parameters) const;
   TrimPlace place_of(const Vector2& low, const Vector2& high) const;
-  /// In order along the line.
-  std::vector<TrimCrossing> crossings(const Vector2& from, const Vector2& to) const;
+  /// In order along the line, which has two points at least.
+  std::vector<TrimCrossing> crossings(const std::vector<Vector2>& line) const;
 
  private:
   static constexpr std::uint32_t kNoEdge = 0xffffffff;
@@ -59,11 +60,20 @@ class TrimRegion {
   struct Chord {
     Vector2 a;
     Vector2 b;
-    std::uint32_t edge;  ///< kNoEdge: closes the gap between two curves
-    double low;
-    double high;
+    std::uint32_t edge;    ///< kNoEdge: closes the gap between two curves
+    std::uint32_t sample;  ///< of the edge, at `a`
+
+    bool meets(const Box2& box) const {
+      return std::max(a.x(), b.x()) >= box.min().x() && std::min(a.x(), b.x()) <= box.max().x() &&
+             std::max(a.y(), b.y()) >= box.min().y() && std::min(a.y(), b.y()) <= box.max().y();
+    }
   };
 
+  void find_crossings(const std::vector<Vector2>& line, std::size_t first, std::size_t last,
+                      std::size_t first_near, std::vector<std::uint32_t>& near,
+                      std::vector<TrimCrossing>& found) const;
+  void cross_chord(const Vector2& from, const Vector2& to, std::size_t side, const Chord& chord,
+                   std::vector<TrimCrossing>& found) const;
   void sample_edge(const NurbsCurve& curve, double tolerance);
   void fill_buckets();
   std::size_t bucket_of(double v) const;
@@ -77,7 +87,8 @@ class TrimRegion {
   std::vector<std::vector<EdgeSample>> samples_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> loops_;
   std::vector<Chord> chords_;
-  std::vector<std::vector<std::uint32_t>> buckets_;  ///< chords by v
+  std::vector<std::uint32_t> bucket_chords_;  ///< chords by v, bucket after bucket
+  std::vector<std::uint32_t> bucket_ends_;    ///< where each begins, and the last one's end
   double v_low_ = 0.0;
   double bucket_height_ = 1.0;
   double z_min_ = 0.0;

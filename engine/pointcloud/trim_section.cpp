@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,8 @@ namespace {
 
 constexpr double kUpright = 0.02;
 constexpr int kMostRootSteps = 80;
+/// Height over the plane at which an arc ends on its trim curve, mm.
+constexpr double kInPlane = 1e-12;
 constexpr int kDeepestBisection = 16;
 /// How far inside its trim curve a surface is looked at, in parts of the domain.
 constexpr double kBeside = 1e-3;
@@ -26,45 +29,39 @@ Vector3 on_surface(const TrimRegion& region, const Vector2& parameters) {
   return evaluate(region.surface(), parameters.x(), parameters.y());
 }
 
-/// The section's direction at a point of the surface, the outward normal on its right; zero where it has
-/// none.
-Vector2 section_tangent(const TrimRegion& region, const Vector2& parameters) {
-  const SurfaceDerivatives d = evaluate_derivatives(region.surface(), parameters.x(), parameters.y());
+/// The section's direction where a surface has these derivatives, the outward normal on its right; zero where
+/// it has none.
+Vector2 section_tangent(const SurfaceDerivatives& d) {
   const Vector2 tangent = d.du.head<2>() * d.dv.z() - d.dv.head<2>() * d.du.z();
   const double length = tangent.norm();
   return length > 1e-9 * d.du.norm() * d.dv.norm() ? Vector2(tangent / length) : Vector2(Vector2::Zero());
 }
 
-/// Where the lifted trim curve passes the plane between two of its parameters; nothing where it does not.
-/// Bisection with secant steps (Illinois; Dowell and Jarratt, 1971).
-bool find_root(const TrimRegion& region, const NurbsCurve& curve, double low, double high, double z,
-               double& root) {
-  const auto height = [&](double t) { return on_surface(region, on_curve(curve, t)).z() - z; };
-  double f_low = height(low);
-  double f_high = height(high);
-  if (f_low == 0.0 || f_high == 0.0 || low == high) {
-    root = f_low == 0.0 ? low : high;
-    return true;
-  }
-  if ((f_low > 0.0) == (f_high > 0.0)) return false;
+/// Parameter at which the lifted trim curve passes the plane between two of its samples; nothing where it
+/// does not. Bisection with secant steps (Illinois; Dowell and Jarratt, 1971).
+std::optional<double> find_root(const TrimRegion& region, const NurbsCurve& curve, const EdgeSample& first,
+                                const EdgeSample& last, double z) {
+  double low = first.t;
+  double high = last.t;
+  double f_low = first.position.z() - z;
+  double f_high = last.position.z() - z;
+  if (f_low == 0.0 || f_high == 0.0) return f_low == 0.0 ? low : high;
+  if ((f_low > 0.0) == (f_high > 0.0)) return std::nullopt;
+  double root = low;
+  bool moved_high = false;
   for (int step = 0; step < kMostRootSteps; ++step) {
-    double t = (low * f_high - high * f_low) / (f_high - f_low);
-    if (!(t > low && t < high)) t = 0.5 * (low + high);
-    const double f = height(t);
-    root = t;
-    if (f == 0.0 || high - low <= 1e-15 * (std::abs(low) + std::abs(high))) return true;
-    if ((f > 0.0) == (f_high > 0.0)) {
-      high = t;
-      f_high = f;
-      f_low *= 0.5;
-    } else {
-      low = t;
-      f_low = f;
-      f_high *= 0.5;
-    }
-    if (std::abs(f) < 1e-12) return true;
+    root = (low * f_high - high * f_low) / (f_high - f_low);
+    if (!(root > low && root < high)) root = 0.5 * (low + high);
+    const double f = on_surface(region, on_curve(curve, root)).z() - z;
+    if (std::abs(f) < kInPlane || high - low <= 1e-15 * (std::abs(low) + std::abs(high))) break;
+    const bool moves_high = (f > 0.0) == (f_high > 0.0);
+    // An end that stays twice counts half.
+    if (step > 0 && moves_high == moved_high) (moves_high ? f_low : f_high) *= 0.5;
+    (moves_high ? high : low) = root;
+    (moves_high ? f_high : f_low) = f;
+    moved_high = moves_high;
   }
-  return true;
+  return root;
 }
 
 bool in_plane(const std::vector<EdgeSample>& samples, double z) {
@@ -83,18 +80,18 @@ class ArcTrimmer {
   }
 
   void trim(const SectionArc& arc, const std::vector<SectionNode>& nodes) {
+    std::vector<Vector2> line;
+    line.reserve(nodes.size());
+    for (const SectionNode& node : nodes) line.push_back(global(node.parameters));
     std::vector<Cut> cuts;
-    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-      for (const TrimCrossing& crossing :
-           region_.crossings(global(nodes[k].parameters), global(nodes[k + 1].parameters)))
-        cuts.push_back({k, crossing});
-    }
+    for (const TrimCrossing& crossing : region_.crossings(line))
+      cuts.push_back({crossing.side, crossing, nullptr});
     if (!level_edges_.empty()) add_ends_of_level_edges(nodes, cuts);
-    Cut from{0, {}};
+    Cut from;
     bool at_start = true;
     for (std::size_t c = 0; c <= cuts.size(); ++c) {
       const bool at_end = c == cuts.size();
-      const Cut to = at_end ? Cut{nodes.size() - 1, {}} : cuts[c];
+      const Cut to = at_end ? Cut{nodes.size() - 1, {}, nullptr} : cuts[c];
       const Vector2 probe = probe_of(nodes, from, to);
       // What runs along a trim curve is that curve's own edge.
       if (region_.contains(probe) && !on_level_edge(probe)) emit(arc, nodes, from, at_start, to, at_end);
@@ -106,8 +103,9 @@ class ArcTrimmer {
  private:
   /// A place on the arc: on the chord after node k.
   struct Cut {
-    std::size_t k;
+    std::size_t k = 0;
     TrimCrossing crossing;
+    const EdgeSample* end = nullptr;  ///< where it is the end of a trim curve
 
     double place() const { return static_cast<double>(k) + crossing.along; }
   };
@@ -137,11 +135,11 @@ class ArcTrimmer {
   void add_ends_of_level_edges(const std::vector<SectionNode>& nodes, std::vector<Cut>& cuts) const {
     for (const std::uint32_t edge : level_edges_) {
       const std::vector<EdgeSample>& samples = region_.samples()[edge];
-      for (const EdgeSample& end : {samples.front(), samples.back()}) {
+      for (const EdgeSample* end : {&samples.front(), &samples.back()}) {
         for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
           const auto [distance, along] =
-              distance_to(end.parameters, global(nodes[k].parameters), global(nodes[k + 1].parameters));
-          if (distance <= kAlong) cuts.push_back({k, {along, edge, end.t, end.t}});
+              distance_to(end->parameters, global(nodes[k].parameters), global(nodes[k + 1].parameters));
+          if (distance <= kAlong) cuts.push_back({k, {k, along, edge, 0}, end});
         }
       }
     }
@@ -172,14 +170,18 @@ class ArcTrimmer {
     SectionNode node;
     node.position = (1.0 - s) * a.position + s * b.position;
     node.tangent = s < 0.5 ? a.tangent : b.tangent;
-    double t = 0.0;
-    if (cut.crossing.edge < region_.edges().size() &&
-        find_root(region_, region_.edges()[cut.crossing.edge], cut.crossing.low, cut.crossing.high, z_, t)) {
-      const Vector2 parameters = on_curve(region_.edges()[cut.crossing.edge], t);
-      const Vector2 exact = on_surface(region_, parameters).head<2>();
+    if (cut.crossing.edge >= region_.edges().size()) return node;
+    const NurbsCurve& edge = region_.edges()[cut.crossing.edge];
+    const EdgeSample* sample = &region_.samples()[cut.crossing.edge][cut.crossing.sample];
+    const std::optional<double> t =
+        cut.end != nullptr ? cut.end->t : find_root(region_, edge, sample[0], sample[1], z_);
+    if (t) {
+      const Vector2 parameters = on_curve(edge, *t);
+      const SurfaceDerivatives d = evaluate_derivatives(region_.surface(), parameters.x(), parameters.y());
+      const Vector2 exact = d.point.head<2>();
       if ((exact - node.position).norm() <= (b.position - a.position).norm()) {
         node.position = exact;
-        const Vector2 tangent = section_tangent(region_, parameters);
+        const Vector2 tangent = section_tangent(d);
         // Arcs of edges in the plane may run against it.
         node.tangent = tangent.dot(node.tangent) < 0.0 ? Vector2(-tangent) : tangent;
       }

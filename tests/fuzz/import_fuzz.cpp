@@ -10,6 +10,9 @@
 #include "engine/import/iges/read_iges.h"
 #include "engine/import/import_error.h"
 #include "engine/import/obj/read_obj.h"
+#include "engine/import/scan/read_pcd.h"
+#include "engine/import/scan/read_ply.h"
+#include "engine/import/scan/read_xyz.h"
 #include "engine/import/stl/read_stl.h"
 #include "engine/import/threemf/read_3mf.h"
 
@@ -30,6 +33,15 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 24;
 }
 [[maybe_unused]] void package(std::string_view bytes) {
   read_3mf(bytes, "fuzz", kMostBytes);
+}
+[[maybe_unused]] void ply(std::string_view bytes) {
+  read_ply(bytes, "fuzz");
+}
+[[maybe_unused]] void pcd(std::string_view bytes) {
+  read_pcd(bytes, "fuzz", kMostBytes);
+}
+[[maybe_unused]] void xyz(std::string_view bytes) {
+  read_xyz(bytes, "fuzz");
 }
 [[maybe_unused]] void gzip(std::string_view bytes) {
   inflate_gzip(bytes, "fuzz", kMostBytes);

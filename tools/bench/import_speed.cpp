@@ -1,5 +1,7 @@
-// How fast IGES files are read, in MB of file a second, and OpenCASCADE on the same files where it was found.
-// Surfaces of both are compared at random parameters.
+// How fast IGES files are read, in MB of file a second, and OpenCASCADE on the same files where it was found,
+// in the same run. Fails where the corpus's largest file is read at less than 50 MB/s, or less than 5 times
+// as fast as by OpenCASCADE, where another large file is read at less than 50 MB/s, or where our surfaces are
+// not OpenCASCADE's.
 
 #include <algorithm>
 #include <chrono>
@@ -11,11 +13,36 @@
 #include <fmt/format.h>
 
 #include "engine/import/read_model.h"
+#include "tools/bench/corpus_models.h"
+#include "tools/bench/measurement.h"
 #include "tools/bench/opencascade_iges.h"
 
 namespace {
 
 using namespace lamina;
+
+constexpr double kLeastMegabytesPerSecond = 50.0;
+constexpr double kLeastTimesFaster = 5.0;
+constexpr double kLargestDistance = 1e-6;  // mm
+/// MB from which a file's speed is that of its content.
+constexpr double kLarge = 0.1;
+
+/// Files whose surfaces are not OpenCASCADE's.
+struct Exception {
+  const char* file;
+  const char* reason;
+};
+constexpr Exception kExceptions[] = {
+    {"entities/offset140_tube.igs", "offset surfaces are splines, within a tolerance that the report tells"},
+    {"entities/subfigure_308_408_scaled.igs", "OpenCASCADE drops instances whose scale is not 1"},
+};
+
+const char* reason_to_differ(const std::string& name) {
+  for (const Exception& exception : kExceptions) {
+    if (name == exception.file) return exception.reason;
+  }
+  return nullptr;
+}
 
 template <typename Read>
 double fastest_seconds(int runs, const Read& read) {
@@ -28,37 +55,72 @@ double fastest_seconds(int runs, const Read& read) {
   return best;
 }
 
+double megabytes_of(const tools::CorpusModel& model) {
+  return static_cast<double>(std::filesystem::file_size(model.file)) / 1e6;
+}
+
+/// What fails about one file; empty where nothing does.
+std::string measure(const tools::CorpusModel& file, bool is_largest, int runs, bool times_count) {
+  const double megabytes = megabytes_of(file);
+  engine::ImportResult result;
+  const double ours = fastest_seconds(2 * runs, [&] { result = engine::read_model(file.file); });
+  fmt::print("{:36} {:6.2f} {:9.4f} {:8.1f}", file.name, megabytes, ours, megabytes / ours);
+  const auto theirs = tools::read_with_opencascade(file.file, result.model, runs);
+  std::string fails;
+  if (times_count && megabytes >= kLarge && megabytes / ours < kLeastMegabytesPerSecond)
+    fails = fmt::format("less than {} MB/s", kLeastMegabytesPerSecond);
+  if (!theirs) {
+    fmt::print(" {:>13} {:>6} {:>9} {:>14}\n", "-", "-", "-", "-");
+    return fails;
+  }
+  fmt::print(" {:13.4f} {:6.1f} {:>4}/{:<4} {:14.1e}\n", theirs->seconds, theirs->seconds / ours,
+             result.model.surfaces.size(), theirs->faces, theirs->largest_distance);
+  if (times_count && is_largest && theirs->seconds < kLeastTimesFaster * ours)
+    fails = fmt::format("less than {} times as fast as OpenCASCADE", kLeastTimesFaster);
+  if (!(theirs->largest_distance <= kLargestDistance)) {
+    const std::string what = fmt::format("surface {} is not OpenCASCADE's", theirs->farthest);
+    const char* reason = reason_to_differ(file.name);
+    if (reason != nullptr) {
+      fmt::print("  {}: {}\n", what, reason);
+    } else {
+      fails = what;
+    }
+  }
+  return fails;
+}
+
+int run(int argc, char** argv) {
+  constexpr int kSkipped = 77;
+  std::string corpus = LAMINA_CORPUS_DIR;
+  std::vector<std::string> models;
+  bool quick = false;
+  CLI::App app("Speed of reading IGES");
+  app.add_option("--corpus", corpus, "Folder with the model corpus");
+  app.add_option("--model", models, "Part of a file's name; repeat for several");
+  app.add_flag("--quick", quick, "Two files, one run, and times do not count");
+  CLI11_PARSE(app, argc, argv);
+  if (quick) models = {"seed/vertebra504", "real/RLF_12545"};
+  auto files = tools::corpus_models(corpus, models);
+  if (files.empty()) {
+    fmt::print(stderr, "{}: the corpus is needed for this measurement\n", corpus);
+    return kSkipped;
+  }
+  std::stable_sort(files.begin(), files.end(), [](const tools::CorpusModel& a, const tools::CorpusModel& b) {
+    return megabytes_of(a) > megabytes_of(b);
+  });
+  fmt::print("{:36} {:>6} {:>9} {:>8} {:>13} {:>6} {:>9} {:>14}\n", "file", "MB", "lamina s", "MB/s",
+             "OpenCASCADE s", "times", "faces", "apart mm");
+  bool holds = true;
+  for (const tools::CorpusModel& file : files) {
+    const std::string fails = measure(file, &file == &files.front(), quick ? 1 : 5, !quick);
+    if (!fails.empty()) fmt::print("FAILS: {}\n", fails);
+    holds = holds && fails.empty();
+  }
+  return holds ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Speed of reading IGES");
-  bool quick = false;
-  std::vector<std::string> files{"seed/vertebra504.igs", "seed/skullmask1260.igs", "real/bearing.iges",
-                                 "real/hammer.iges"};
-  app.add_flag("--quick", quick, "One small file, one run");
-  app.add_option("FILES", files, "Files of the corpus");
-  CLI11_PARSE(app, argc, argv);
-  if (quick) files = {"real/RLF_12545.igs"};
-  fmt::print("{:28} {:>8} {:>10} {:>9} {:>13} {:>8} {:>16}\n", "file", "MB", "lamina s", "MB/s",
-             "OpenCASCADE s", "times", "points apart mm");
-  for (const std::string& name : files) {
-    const std::filesystem::path path = std::filesystem::path(LAMINA_CORPUS_DIR) / name;
-    if (!std::filesystem::exists(path)) {
-      fmt::print("{:28} missing\n", name);
-      continue;
-    }
-    const double megabytes = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
-    engine::ImportResult result;
-    const double ours = fastest_seconds(quick ? 1 : 5, [&] { result = engine::read_model(path); });
-    fmt::print("{:28} {:8.2f} {:10.4f} {:9.1f}", name, megabytes, ours, megabytes / ours);
-    const auto theirs = tools::read_with_opencascade(path, result.model, quick ? 1 : 3);
-    if (theirs) {
-      fmt::print(" {:13.3f} {:8.1f} {:>16}\n", theirs->seconds, theirs->seconds / ours,
-                 theirs->compared > 0 ? fmt::format("{:.1e} ({})", theirs->largest_distance, theirs->compared)
-                                      : std::string("-"));
-    } else {
-      fmt::print(" {:>13} {:>8} {:>16}\n", "-", "-", "-");
-    }
-  }
-  return 0;
+  return lamina::tools::run_measurement(run, argc, argv);
 }

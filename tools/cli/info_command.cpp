@@ -7,6 +7,7 @@
 #include "engine/import/read_model.h"
 #include "engine/model_bounds.h"
 #include "engine/nurbs/bezier.h"
+#include "engine/scan/prepare_scan.h"
 #include "engine/slicer.h"
 #include "tools/cli/json.h"
 #include "tools/cli/model_input.h"
@@ -56,6 +57,18 @@ Json boundary_json(const engine::BoundaryReport& boundary) {
   return json;
 }
 
+/// Scanned points, and what they are good for.
+Json scans_json(const engine::Model& model) {
+  Json json = Json::array();
+  for (const engine::PointCloud& cloud : model.clouds) {
+    json.push_back({{"points", cloud.points.size()},
+                    {"spacing_mm", cloud.spacing},
+                    {"noise_mm", cloud.noise},
+                    {"served_tolerance_mm", engine::served_epsilon(cloud)}});
+  }
+  return json;
+}
+
 Json counts(const std::vector<engine::EntityCount>& entities) {
   Json json = Json::array();
   for (const engine::EntityCount& entity : entities) {
@@ -78,6 +91,7 @@ Json info_json(const engine::ImportResult& import, const engine::Box3& bounds,
       {"trimmed_surfaces", trimmed_count(import.model)},
       {"patches", patches},
       {"facets", facet_count(import.model)},
+      {"scans", scans_json(import.model)},
       {"boundary", boundary_json(boundary)},
       {"surfaces_by_type", counts(report.surfaces)},
       {"entities", counts(report.entities)},
@@ -140,7 +154,14 @@ void print_text(const engine::ImportResult& import, const engine::Box3& bounds,
     std::cout << fmt::format(", {} triangles in {} meshes", facet_count(import.model),
                              import.model.meshes.size());
   }
+  for (const engine::PointCloud& cloud : import.model.clouds)
+    std::cout << fmt::format(", {} scanned points", cloud.points.size());
   std::cout << '\n';
+  for (const engine::PointCloud& cloud : import.model.clouds) {
+    std::cout << fmt::format(
+        "scan      points {:.3g} mm apart, noise {:.2g} mm: serves a tolerance of {:.3g} mm\n", cloud.spacing,
+        cloud.noise, engine::served_epsilon(cloud));
+  }
   std::cout << fmt::format("unit      {} (flag {}), 1 unit = {} mm", report.unit.name, report.unit.flag,
                            report.unit.millimetres);
   if (report.model_scale != 1.0) std::cout << fmt::format(", model scale {}", report.model_scale);
@@ -155,7 +176,8 @@ void print_text(const engine::ImportResult& import, const engine::Box3& bounds,
   }
   if (report.resolution > 0.0)
     std::cout << fmt::format("tolerance {:.3g} mm, as the file says\n", report.resolution);
-  print_boundary(boundary);
+  const bool is_only_points = import.model.surfaces.empty() && import.model.meshes.empty();
+  if (!is_only_points) print_boundary(boundary);
   if (!report.system.empty()) std::cout << "written by " << report.system << '\n';
   if (!report.surfaces.empty())
     print_counts("surfaces of the model, by the entity that they come from", report.surfaces);
@@ -184,7 +206,7 @@ Verb info_verb() {
           "  lamina info part.igs\n"
           "  lamina info part.igs.gz --json",
           [arguments](OptionSet& options) {
-            options.argument("MODEL", arguments->model, "IGES, STEP, STL, OBJ or 3MF file, also with .gz");
+            options.argument("MODEL", arguments->model, kModelFiles);
             options.flag("--json", arguments->json, "Print it as JSON");
           },
           [arguments] { return run(*arguments); }};

@@ -12,7 +12,7 @@ namespace lamina::tools {
 std::vector<std::string> import_warnings(const engine::ImportReport& report);
 
 /// The kinds of files that are read, as the help names them.
-inline constexpr const char* kModelFiles = "IGES, STEP, STL, OBJ or 3MF file, also with .gz";
+inline constexpr const char* kModelFiles = "IGES, STEP, STL, OBJ, 3MF, PLY, PCD or XYZ file, also with .gz";
 
 struct ModelInput {
   std::vector<engine::Model> models;

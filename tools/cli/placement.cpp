@@ -94,6 +94,7 @@ void append(Model& all, Model part) {
   };
   move_all(part.surfaces, all.surfaces);
   move_all(part.meshes, all.meshes);
+  move_all(part.clouds, all.clouds);
 }
 
 void add(PlacedModel& placed, const Posed& posed, const Vector3& shift) {

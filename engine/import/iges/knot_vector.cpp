@@ -9,7 +9,7 @@
 namespace lamina::engine {
 namespace {
 
-constexpr int kHighestDegree = 25;
+constexpr int kHighestReadDegree = 25;
 constexpr double kLowestWeight = 1e-12;
 constexpr double kHighestWeight = 1e12;
 
@@ -17,8 +17,8 @@ constexpr double kHighestWeight = 1e12;
 
 int read_degree(ParameterRecord& record, std::size_t count, std::string_view name) {
   const int degree = record.integer(name);
-  if (degree < 1 || degree > kHighestDegree) {
-    record.fail(fmt::format("the {} is {}, and must be from 1 to {}", name, degree, kHighestDegree));
+  if (degree < 1 || degree > kHighestReadDegree) {
+    record.fail(fmt::format("the {} is {}, and must be from 1 to {}", name, degree, kHighestReadDegree));
   }
   if (static_cast<std::size_t>(degree) >= count) {
     record.fail(

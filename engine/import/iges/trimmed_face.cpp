@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,10 @@ namespace {
 
 /// Tolerances by which curves in parameters and in space may differ and still be the same.
 constexpr double kAgreement = 4.0;
+
+double parameter_at(const NurbsCurve& curve, double part) {
+  return curve.first_parameter() + part * (curve.last_parameter() - curve.first_parameter());
+}
 
 Vector3 first_point(const NurbsCurve& curve) {
   return cartesian(curve.control_points.front());
@@ -64,23 +69,27 @@ class DistanceFromCurves {
     const Chord* nearest = nullptr;
     double best = std::numeric_limits<double>::infinity();
     for (const Chord& chord : chords_) {
-      const double distance = distance_to_segment(point, chord.start, chord.end);
+      const double distance = (chord.start + chord.part(point) * (chord.end - chord.start) - point).norm();
       if (distance >= best) continue;
       best = distance;
       nearest = &chord;
     }
     if (nearest == nullptr || nearest->curve->degree == 1) return best;
-    // The curve beside its chord: the distance has one minimum there.
-    double low = nearest->first;
-    double high = nearest->last;
-    for (int i = 0; i < 40; ++i) {
-      const double a = low + (high - low) / 3.0;
-      const double b = high - (high - low) / 3.0;
-      const bool is_before =
-          (evaluate(*nearest->curve, a) - point).norm() < (evaluate(*nearest->curve, b) - point).norm();
-      (is_before ? high : low) = is_before ? b : a;
+    // The curve beside its chord: the distance has one minimum there, which Gauss and Newton find at once.
+    double t = nearest->first + nearest->part(point) * (nearest->last - nearest->first);
+    best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 8; ++i) {
+      const CurveDerivative at = evaluate_derivative(*nearest->curve, t);
+      const Vector3 to = point - at.point;
+      best = std::min(best, to.norm());
+      const double squared = at.tangent.squaredNorm();
+      if (!(squared > 0.0)) break;
+      const double next = std::clamp(t + to.dot(at.tangent) / squared, nearest->first, nearest->last);
+      const bool is_found = std::abs(next - t) <= 1e-9 * (nearest->last - nearest->first);
+      t = next;
+      if (is_found) break;
     }
-    return (evaluate(*nearest->curve, 0.5 * (low + high)) - point).norm();
+    return best;
   }
 
  private:
@@ -90,28 +99,37 @@ class DistanceFromCurves {
     double last;
     Vector3 start;
     Vector3 end;
-  };
 
-  static double distance_to_segment(const Vector3& point, const Vector3& a, const Vector3& b) {
-    const Vector3 along = b - a;
-    const double squared = along.squaredNorm();
-    const double part = squared > 0.0 ? std::clamp(along.dot(point - a) / squared, 0.0, 1.0) : 0.0;
-    return (a + part * along - point).norm();
-  }
+    /// Where along it the foot of a point lies, 0 to 1.
+    double part(const Vector3& point) const {
+      const Vector3 along = end - start;
+      const double squared = along.squaredNorm();
+      return squared > 0.0 ? std::clamp(along.dot(point - start) / squared, 0.0, 1.0) : 0.0;
+    }
+  };
 
   std::vector<Chord> chords_;
 };
 
 /// How far a loop in the parameter plane is off the curves in space that should be the same, at three points
-/// of each of its curves.
+/// of each of its curves. Up to `enough` it is a bound only.
 double disagreement(const ParameterLoop& loop, const std::vector<NurbsCurve>& in_space,
-                    const LoopGround& ground) {
+                    const LoopGround& ground, double enough) {
   double largest = 0.0;
-  const DistanceFromCurves distance(in_space);
-  for (const NurbsCurve& curve : loop.curves) {
+  std::optional<DistanceFromCurves> distance;
+  for (std::size_t i = 0; i < loop.curves.size(); ++i) {
+    const NurbsCurve& curve = loop.curves[i];
     for (const double part : {0.0, 0.37, 0.71}) {
-      const double t = curve.first_parameter() + part * (curve.last_parameter() - curve.first_parameter());
-      largest = std::max(largest, distance(ground.inverse.point(evaluate(curve, t).head<2>())));
+      const Vector3 point = ground.inverse.point(evaluate(curve, parameter_at(curve, part)).head<2>());
+      // Most writers give both curves piece by piece and with one parameter.
+      double off = std::numeric_limits<double>::infinity();
+      if (loop.curves.size() == in_space.size())
+        off = (evaluate(in_space[i], parameter_at(in_space[i], part)) - point).norm();
+      if (off > enough) {
+        if (!distance) distance.emplace(in_space);
+        off = std::min(off, (*distance)(point));
+      }
+      largest = std::max(largest, off);
     }
   }
   return largest;
@@ -122,8 +140,8 @@ double distance_off_surface(const std::vector<NurbsCurve>& in_space, const LoopG
   double largest = 0.0;
   for (const NurbsCurve& curve : in_space) {
     for (const double part : {0.2, 0.55}) {
-      const double t = curve.first_parameter() + part * (curve.last_parameter() - curve.first_parameter());
-      largest = std::max(largest, ground.inverse.nearest(evaluate(curve, t)).distance);
+      largest =
+          std::max(largest, ground.inverse.nearest(evaluate(curve, parameter_at(curve, part))).distance);
     }
   }
   return largest;
@@ -149,9 +167,9 @@ ParameterLoop made_loop(ParameterRecord& record, const FaceSurface& surface, con
   if (has_parameters) {
     loop = chained_loop(mapped(boundary.in_parameters, surface.map, ground), ground);
     if (boundary.in_space.empty()) return loop;
-    const double off = disagreement(loop, boundary.in_space, ground);
-    if (off <= kAgreement * ground.tolerance || off <= 2.0 * distance_off_surface(boundary.in_space, ground))
-      return loop;
+    const double agreeing = kAgreement * ground.tolerance;
+    const double off = disagreement(loop, boundary.in_space, ground, agreeing);
+    if (off <= agreeing || off <= 2.0 * distance_off_surface(boundary.in_space, ground)) return loop;
     ParameterLoop projected = projected_loop(turned_to_meet(boundary.in_space, ground.tolerance), ground);
     if (projected.curves.empty() || projected.largest_distance > off ||
         projected.largest_gap > std::max(off, loop.largest_gap))

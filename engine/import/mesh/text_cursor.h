@@ -41,6 +41,9 @@ class TextCursor {
 
   std::size_t line() const { return line_; }  ///< from 1
 
+  /// What has not been passed yet.
+  std::string_view rest() const { return text_.substr(at_); }
+
  private:
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 

@@ -26,11 +26,21 @@ class PathFitter {
   PathFitter(const ParameterPath& path, const StepLength& length, double tolerance)
       : path_(path), length_(length), tolerance_(tolerance) {}
 
-  void fit(double first, double last, const Vector2& start, const Vector2& end, int halvings) {
-    std::array<Vector2, 7> at;  // at sixths
-    at.front() = start;
-    at.back() = end;
-    for (std::size_t i = 1; i < 6; ++i) at[i] = path_(first + (last - first) * static_cast<double>(i) / 6.0);
+  void fit(double first, double last, const Vector2& start, const Vector2& end) {
+    const double third = (last - first) / 3.0;
+    fit(first, last, {start, path_(first + third), path_(last - third), end}, kMostHalvings);
+  }
+
+  std::vector<Piece> pieces;
+
+ private:
+  /// `known`: the points at thirds.
+  void fit(double first, double last, const std::array<Vector2, 4>& known, int halvings) {
+    const auto at_sixth = [&](int i) { return path_(first + (last - first) * i / 6.0); };
+    const std::array<Vector2, 7> at{known[0], at_sixth(1), known[1], at_sixth(3),
+                                    known[2], at_sixth(5), known[3]};
+    const Vector2& start = at.front();
+    const Vector2& end = at.back();
     if (is_straight(at)) {
       const Vector2 third = (end - start) / 3.0;
       pieces.push_back({last, {start, start + third, end - third, end}, true});
@@ -51,13 +61,10 @@ class PathFitter {
       return;
     }
     const double middle = 0.5 * (first + last);
-    fit(first, middle, start, at[3], halvings - 1);
-    fit(middle, last, at[3], end, halvings - 1);
+    fit(first, middle, {start, at[1], at[2], at[3]}, halvings - 1);
+    fit(middle, last, {at[3], at[4], at[5], end}, halvings - 1);
   }
 
-  std::vector<Piece> pieces;
-
- private:
   bool is_straight(const std::array<Vector2, 7>& at) const {
     const Vector2 chord = at.back() - at.front();
     const double squared = chord.squaredNorm();
@@ -87,7 +94,7 @@ NurbsCurve fitted_path(const ParameterPath& path, const std::vector<double>& bre
   Vector2 start = first;
   for (std::size_t i = 1; i < breaks.size(); ++i) {
     const Vector2 end = path(breaks[i]);
-    fitter.fit(breaks[i - 1], breaks[i], start, end, kMostHalvings);
+    fitter.fit(breaks[i - 1], breaks[i], start, end);
     start = end;
   }
   const auto& pieces = fitter.pieces;

@@ -134,10 +134,12 @@ class ProjectedEdge {
       if (i == 0) {
         foot = hint != nullptr ? ground_.inverse.nearest(point, *hint) : ground_.inverse.nearest(point);
       } else if (i == 1) {
-        foot = ground_.inverse.nearest(point, feet_.back());
+        foot = ground_.inverse.nearest(point, feet_.back(), trusted_);
       } else {
-        foot = ground_.inverse.nearest(point, 2.0 * feet_.back() - feet_[i - 2]);
+        foot = ground_.inverse.nearest(point, 2.0 * feet_.back() - feet_[i - 2], trusted_);
       }
+      // What lies farther was looked for everywhere.
+      if (foot.distance > trusted_) trusted_ = kTrust * foot.distance;
       largest_distance = std::max(largest_distance, foot.distance);
       parameters_.push_back(t);
       feet_.push_back(foot.at);
@@ -160,12 +162,16 @@ class ProjectedEdge {
     const auto i = static_cast<std::size_t>(after) - 1;
     if (t == parameters_[i]) return feet_[i];
     const Vector2 hint = mixed(parameters_[i], feet_[i], parameters_[i + 1], feet_[i + 1], t);
-    return ground_.inverse.nearest(evaluate(edge_, t), hint).at;
+    return ground_.inverse.nearest(evaluate(edge_, t), hint, trusted_).at;
   }
 
   double largest_distance = 0.0;
 
  private:
+  /// An edge that lies off the surface does so all along: feet up to this many times farther than one that
+  /// was looked for everywhere are as good.
+  static constexpr double kTrust = 1.5;
+
   double pole_tolerance() const { return std::max(ground_.tolerance, 1e-6 * ground_.topology.size); }
 
   static Vector2 mixed(double t0, const Vector2& a, double t1, const Vector2& b, double t) {
@@ -189,6 +195,7 @@ class ProjectedEdge {
   std::optional<Side> end_pole_;
   std::vector<double> parameters_;
   std::vector<Vector2> feet_;
+  double trusted_ = 0.0;
 };
 
 bool has_length(const NurbsCurve& edge, double tolerance) {

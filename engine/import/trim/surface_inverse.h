@@ -23,9 +23,10 @@ class SurfaceInverse {
   /// The nearest foot: Newton's method (The NURBS Book, section 6.1) from the best points of a grid.
   Foot nearest(const Vector3& point) const;
 
-  /// The foot near `hint`, the nearest one where the way from there leads nowhere near the surface.
-  /// Parameters of closed directions are the ones closest to the hint.
-  Foot nearest(const Vector3& point, const Vector2& hint) const;
+  /// The foot near `hint` where it is not farther than `trusted` (or rounding) from the point, else the
+  /// nearest one where that is less than half as far. Parameters of closed directions are the ones closest to
+  /// the hint.
+  Foot nearest(const Vector3& point, const Vector2& hint, double trusted = 0.0) const;
 
   /// Parameters inside the domain: whole periods taken off, what is still beyond it moved to its side.
   Vector2 inside(const Vector2& at) const;
@@ -47,14 +48,18 @@ class SurfaceInverse {
 
   Foot refined(const Vector3& point, Vector2 at) const;
 
-  std::vector<GridPoint> made_grid() const;
+  /// As `inside`, but parameters of closed directions stay as they are.
+  Vector2 kept_inside(const Vector2& at) const;
+
+  void make_grid() const;
 
   const NurbsSurface& surface_;
   const SurfaceTopology& topology_;
   double period_u_;
   double period_v_;
   double size_;
-  mutable std::vector<GridPoint> grid_;  ///< made when it is first needed
+  mutable std::vector<GridPoint> grid_;        ///< made when it is first needed
+  mutable Vector2 spacing_ = Vector2::Zero();  ///< of the grid at its widest
 };
 
 }  // namespace lamina::engine

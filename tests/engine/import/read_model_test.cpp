@@ -6,6 +6,7 @@
 #include <string>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -113,12 +114,38 @@ TEST_CASE("content says what a file is, before its name does") {
   }
 }
 
+TEST_CASE("scans are known by their content as well") {
+  const Folder folder;
+  std::string points;
+  for (int i = 0; i < 100; ++i) points += fmt::format("{} {} {}\n", i % 10, i / 10, i * i % 7);
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 100\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n" +
+      points;
+  const std::string pcd =
+      "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 100\nHEIGHT 1\nPOINTS 100\nDATA "
+      "ascii\n" +
+      points;
+  for (const auto& [name, bytes, format] :
+       std::vector<std::tuple<std::string, std::string, std::string>>{{"part.ply", ply, "PLY"},
+                                                                      {"part.xyz", ply, "PLY"},
+                                                                      {"part.pcd.gz", gzipped(pcd), "PCD"},
+                                                                      {"part", pcd, "PCD"},
+                                                                      {"part.xyz", points, "XYZ"},
+                                                                      {"part", points, "XYZ"}}) {
+    INFO(name << " holding " << format);
+    const ImportResult result = read_model(folder.write(name, bytes));
+    CHECK(result.report.format == format);
+    CHECK(result.model.clouds.size() == 1);
+  }
+}
+
 TEST_CASE("files of no known format are refused with what they are") {
   const Folder folder;
   CHECK(error_reading(folder.path() / "none.igs").find("none.igs: no such file") == 0);
   CHECK(error_reading(folder.path()).find("is a folder") != std::string::npos);
   CHECK(error_reading(folder.write("empty.igs", "")) == "empty.igs: is empty");
-  CHECK(error_reading(folder.write("part.xyz", "1 2 3\n")).find("no model format that lamina knows") !=
+  CHECK(error_reading(folder.write("part.dat", "1 2 3\n")).find("no model format that lamina knows") !=
         std::string::npos);
   CHECK(error_reading(folder.write("part.igs", "1 2 3\n")).find("part.igs: file line 1") == 0);
   CHECK(error_reading(folder.write("part.stl", "1 2 3\n")).find("part.stl: is no STL file") == 0);

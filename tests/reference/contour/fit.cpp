@@ -154,7 +154,7 @@ PlanarCurve least_squares_curve(const Polyline& points, const std::vector<double
   Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(inner, 2);
   for (std::size_t r = 1; r + 1 < points.size(); ++r) {
     const std::size_t span = find_span(knots, degree, parameters[r]);
-    const std::vector<double> basis = basis_functions(knots, degree, span, parameters[r]);
+    const BasisRow basis = basis_functions(knots, degree, span, parameters[r]);
     const Eigen::Index first = static_cast<Eigen::Index>(span) - degree;
     Vector2 rest = points[r];
     for (Eigen::Index k = 0; k <= degree; ++k) {

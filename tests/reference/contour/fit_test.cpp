@@ -44,7 +44,7 @@ Polyline staircase(double epsilon, std::size_t count) {
 std::vector<double> values_at(const PlanarCurve& curve, double t) {
   std::vector<double> all(curve.control_points.size(), 0.0);
   const std::size_t span = engine::find_span(curve.knots, curve.degree, t);
-  const std::vector<double> basis = engine::basis_functions(curve.knots, curve.degree, span, t);
+  const engine::BasisRow basis = engine::basis_functions(curve.knots, curve.degree, span, t);
   for (std::size_t r = 0; r < basis.size(); ++r)
     all[span - static_cast<std::size_t>(curve.degree) + r] = basis[r];
   return all;
