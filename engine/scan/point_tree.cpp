@@ -24,9 +24,16 @@ void PointTree::build(std::size_t first, std::size_t last) {
                      if (a.position[axis] != b.position[axis]) return a.position[axis] < b.position[axis];
                      return a.point < b.point;
                    });
-  splits_[middle] = {axis, places_[middle].position[axis]};
+  splits_[middle] = {static_cast<std::uint8_t>(axis), places_[middle].position[axis]};
   build(first, middle);
   build(middle, last);
+}
+
+std::vector<std::uint32_t> PointTree::order() const {
+  std::vector<std::uint32_t> order;
+  order.reserve(places_.size());
+  for (const Place& place : places_) order.push_back(place.point);
+  return order;
 }
 
 void PointTree::search(std::size_t first, std::size_t last, const Eigen::Vector3f& place,

@@ -20,6 +20,9 @@ class PointTree {
     float squared = std::numeric_limits<float>::infinity();  ///< distance
   };
 
+  /// The points, by their numbers, so that neighbours come soon after each other.
+  std::vector<std::uint32_t> order() const;
+
   /// The nearest points, by ascending distance; fewer than `count` where there are no more within `farthest`.
   std::vector<Neighbour> nearest(const Eigen::Vector3f& place, std::size_t count,
                                  float farthest = std::numeric_limits<float>::infinity()) const;
@@ -38,7 +41,7 @@ class PointTree {
 
   /// What lies below comes first, what lies above behind it; what lies there may be in either half.
   struct Split {
-    Eigen::Index axis = 0;
+    std::uint8_t axis = 0;
     float at = 0.0F;
   };
 

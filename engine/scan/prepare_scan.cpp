@@ -64,6 +64,20 @@ std::vector<bool> first_of_each_place(const std::vector<Eigen::Vector3f>& points
   return keep;
 }
 
+/// Puts neighbours near each other in memory, where they will be looked for.
+void put_in_order(PointCloud& cloud) {
+  const std::vector<std::uint32_t> order = PointTree(cloud.points).order();
+  const auto reorder = [&](std::vector<Eigen::Vector3f>& values) {
+    if (values.empty()) return;
+    std::vector<Eigen::Vector3f> ordered;
+    ordered.reserve(values.size());
+    for (const std::uint32_t i : order) ordered.push_back(values[i]);
+    values = std::move(ordered);
+  };
+  reorder(cloud.points);
+  reorder(cloud.normals);
+}
+
 /// The spacing around each point: its nearest neighbours share a disc as wide as they reach.
 std::vector<float> spacings_of(const std::vector<Eigen::Vector3f>& points, const PointTree& tree) {
   std::vector<float> spacings;
@@ -140,14 +154,19 @@ PreparedScan prepare_scan(ScannedPoints scanned) {
   keep_points(cloud, once);
   if (cloud.points.size() < kFewestScanPoints) return {{}, prepared.repeated, 0, false};
 
-  const std::vector<bool> among_others = not_alone(spacings_of(cloud.points, PointTree(cloud.points)));
+  put_in_order(cloud);
+  cloud.spacings = spacings_of(cloud.points, PointTree(cloud.points));
+  const std::vector<bool> among_others = not_alone(cloud.spacings);
   prepared.outliers = count_off(among_others);
-  keep_points(cloud, among_others);
-  if (cloud.points.size() < kFewestScanPoints) return {{}, prepared.repeated, prepared.outliers, false};
+  if (prepared.outliers > 0) {
+    keep_points(cloud, among_others);
+    if (cloud.points.size() < kFewestScanPoints) return {{}, prepared.repeated, prepared.outliers, false};
+    cloud.spacings = spacings_of(cloud.points, PointTree(cloud.points));
+  }
 
   {
     const PointTree tree(cloud.points);
-    cloud.spacings = smoothed(spacings_of(cloud.points, tree), cloud.points, tree);
+    cloud.spacings = smoothed(cloud.spacings, cloud.points, tree);
     bool is_given = are_usable(cloud.normals);
     if (is_given) {
       for (Eigen::Vector3f& normal : cloud.normals) normal.normalize();
