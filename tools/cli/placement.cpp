@@ -1,6 +1,7 @@
 #include "tools/cli/placement.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -86,15 +87,14 @@ void append(Model& all, Model part) {
   std::uint32_t highest = 0;
   for (const engine::Surface& surface : all.surfaces) highest = std::max(highest, surface.solid);
   for (const engine::TriangleMesh& mesh : all.meshes) highest = std::max(highest, mesh.solid);
-  const auto move_all = [&](auto& from, auto& to) {
-    for (auto& piece : from) {
-      if (piece.solid != 0) piece.solid += highest;
-      to.push_back(std::move(piece));
-    }
+  const auto move_all = [](auto& from, auto& to) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
   };
+  for (engine::Surface& surface : part.surfaces) surface.solid += surface.solid != 0 ? highest : 0;
+  for (engine::TriangleMesh& mesh : part.meshes) mesh.solid += mesh.solid != 0 ? highest : 0;
   move_all(part.surfaces, all.surfaces);
   move_all(part.meshes, all.meshes);
-  move_all(part.clouds, all.clouds);
+  std::move(part.clouds.begin(), part.clouds.end(), std::back_inserter(all.clouds));
 }
 
 void add(PlacedModel& placed, const Posed& posed, const Vector3& shift) {
