@@ -1,6 +1,7 @@
 #include "tools/cli/pipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -122,6 +123,11 @@ std::vector<std::string> slicing_warnings(const SlicingFlaws& flaws) {
   append_gaps(flaws.open_gaps,
               "ends of contours stay open, with no end that faces them within slicing.longest_bridge",
               flaws.widest_gap, flaws.widest_gap_z);
+  if (flaws.open_gaps > 0) {
+    constexpr double kStep = 0.1;  // mm
+    warnings.back() += fmt::format(" (slicing.longest_bridge={:.1f} closes gaps of this width)",
+                                   kStep * (std::floor(flaws.widest_gap.width() / kStep) + 1.0));
+  }
   return warnings;
 }
 
