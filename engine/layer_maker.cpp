@@ -9,6 +9,7 @@
 #include "engine/model.h"
 #include "engine/pointcloud/facet_section.h"
 #include "engine/pointcloud/scan_section.h"
+#include "engine/pointcloud/trim_edges.h"
 #include "engine/pointcloud/trim_section.h"
 
 namespace lamina::engine {

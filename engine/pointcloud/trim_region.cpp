@@ -151,6 +151,12 @@ double TrimRegion::turning(std::size_t loop) const {
   return twice_area;
 }
 
+bool TrimRegion::is_level(std::uint32_t edge, double z) const {
+  return std::all_of(samples_[edge].begin(), samples_[edge].end(), [z](const EdgeSample& sample) {
+    return std::abs(sample.position.z() - z) <= kModelTolerance;
+  });
+}
+
 bool TrimRegion::contains(const Vector2& p) const {
   bool inside = false;
   for_each_chord(p.y(), p.y(), [&](const Chord& chord) {

@@ -40,6 +40,13 @@ class TrimRegion {
   const std::vector<NurbsCurve>& edges() const { return edges_; }
   /// Chords of each edge, lifted onto the surface.
   const std::vector<std::vector<EdgeSample>>& samples() const { return samples_; }
+  /// Place of an edge in the parameter plane.
+  Vector2 on_edge(std::uint32_t edge, double t) const { return evaluate(edges_[edge], t).head<2>(); }
+  Vector3 on_surface(const Vector2& parameters) const {
+    return evaluate(surface_, parameters.x(), parameters.y());
+  }
+  /// Whether an edge lies in the plane, to the model tolerance.
+  bool is_level(std::uint32_t edge, double z) const;
   /// Edges of each loop, [first, last).
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& loops() const { return loops_; }
   /// Twice the area of a loop in the parameter plane, positive counter-clockwise.

@@ -21,12 +21,7 @@ SectionMark mark_of(const Section& section);
 
 /// Keeps of what a patch added since `mark` the part inside the trim loops. Arcs end where the plane meets
 /// the trim curve, exactly: on the curve, on the surface and in the plane. Edges along the surface's own
-/// border are left to `add_trim_edges`.
+/// border, and those along trim curves in the plane, are left to `add_trim_edges`.
 void trim_section(Section& section, const SectionMark& mark, const FrontPatch& patch, double z);
-
-/// Appends what a plane and the trim curves of a region have in common: curves in the plane as edges, their
-/// ends as touch candidates, and a level surface as a face with the loops as its rims. Chords within
-/// `chord_tolerance`, mm.
-void add_trim_edges(Section& section, const TrimRegion& region, double z, double chord_tolerance);
 
 }  // namespace lamina::engine
