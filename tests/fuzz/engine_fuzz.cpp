@@ -87,7 +87,7 @@ class Script {
 
   /// Takes the engine to one of its states.
   void start() {
-    const unsigned char where = next() % 8U;
+    const unsigned char where = next() % 12U;
     if (where == 0) return;
     next() % 2U == 0 ? engine_.connect(now_) : engine_.rejoin(now_);
     if (where == 1) return;
@@ -98,6 +98,22 @@ class Script {
     engine_.receive("Error:Line Number is not Last Line Number+1, Last Line: 7\nResend: 8\nok\n", now_);
     wait(std::chrono::seconds(1));
     if (where == 4) return;
+    if (where == 8) {
+      engine_.receive("Cap:MEATPACK:1\n", now_);
+      engine_.receive("[MP] PV01 ON NSP\n", now_);
+      return;
+    }
+    if (where == 9 || where == 10) {
+      // A command that blocks, and a file being written.
+      engine_.submit(where == 9 ? "M109 S200" : "M28 A.GCO", LineOrigin::kJob);
+      engine_.tick(now_);
+      if (where == 10) engine_.receive("ok\n", now_);
+      return;
+    }
+    if (where == 11) {
+      engine_.close("at the start");
+      return;
+    }
     for (int i = 0; i < 4; ++i) engine_.submit("G1 X1", LineOrigin::kJob);
     engine_.tick(now_);
     if (where == 5) return;
@@ -132,7 +148,10 @@ class Script {
           engine_.receive("ok N" + std::to_string(*engine_.outstanding().front().number) + " P14 B3\n", now_);
         break;
       case 6:
-        if (what == 6) engine_.send_urgent("M108", now_);
+        if (what == 6) {
+          engine_.send_urgent("M108", now_);
+          ++urged_;
+        }
         if (what == 14) engine_.drop_queued();
         if (what == 22) engine_.close("the script says so");
         engine_.tick(now_);
@@ -176,7 +195,7 @@ class Script {
       if (std::holds_alternative<Ended>(event)) ended_ = true;
     }
     require(ended_ == (engine_.state() == EngineState::kEnded), "ended without a word");
-    require(engine_.outstanding().size() < 200, "lines on their way pile up");
+    require(engine_.outstanding().size() < 200 + urged_, "lines on their way pile up");
     const auto deadline = engine_.deadline();
     require(!deadline || *deadline > now_ || engine_.state() == EngineState::kWaitingForStart,
             "something is due and was not done");
@@ -187,6 +206,7 @@ class Script {
   Instant now_{};
   LineNumber sent_ = 0;
   LineNumber acknowledged_ = 0;
+  std::size_t urged_ = 0;
   bool ended_ = false;
 };
 

@@ -2,6 +2,9 @@
 
 #include "tests/transport/sample_print.h"
 #include "transport/emulator/emulator.h"
+#include "transport/emulator/wire.h"
+#include "transport/protocol/line_form.h"
+#include "transport/protocol/line_stripper.h"
 #include "transport/session/card_protocol.h"
 
 using namespace lamina::transport;
@@ -13,7 +16,11 @@ namespace {
 /// A printer with a card, and sessions with it in simulated time.
 class CardRig {
  public:
-  CardRig() : emulator_(with_card(), Instant{}) { emulator_.take_output(); }
+  CardRig() : CardRig(WireOptions{}, WireOptions{}) {}
+  CardRig(const WireOptions& to_printer, const WireOptions& to_host)
+      : emulator_(with_card(), Instant{}), to_printer_(to_printer), to_host_(to_host) {
+    emulator_.take_output();
+  }
 
   std::vector<CommandAnswer> ask(const std::vector<std::string>& commands, std::size_t window = 1) {
     EngineOptions options;
@@ -21,20 +28,21 @@ class CardRig {
     CommandSession session(source_of(commands), options,
                            [](const CommandAnswer& answer) { return !card_complaint(answer); });
     std::vector<CommandAnswer> answers;
-    std::string on_wire;
     session.start(now_);
-    for (int step = 0; step < 1'000'000 && !session.finished(); ++step) {
+    for (int step = 0; step < 5'000'000 && !session.finished(); ++step) {
       emulator_.advance(now_);
-      on_wire.erase(0, emulator_.receive(on_wire, now_));
-      session.receive(emulator_.take_output(), now_);
+      const std::string arrived = to_printer_.take_arrived(now_);
+      to_printer_.put_back(std::string_view(arrived).substr(emulator_.receive(arrived, now_)), now_);
+      to_host_.send(emulator_.take_output(), now_);
+      session.receive(to_host_.take_arrived(now_), now_);
       session.tick(now_);
-      const std::string more = session.take_output();
-      on_wire += more;
+      to_printer_.send(session.take_output(), now_);
       for (CommandAnswer& answer : session.take_answers()) answers.push_back(std::move(answer));
-      if (!more.empty()) continue;
       std::optional<Instant> next = session.deadline();
-      const auto printer = emulator_.next_event();
-      if (printer && (!next || *printer < *next)) next = printer;
+      for (const auto& other :
+           {emulator_.next_event(), to_printer_.next_arrival(), to_host_.next_arrival()}) {
+        if (other && (!next || *other < *next)) next = other;
+      }
       if (!next) break;
       now_ = std::max(now_, *next);
     }
@@ -48,7 +56,7 @@ class CardRig {
     now_ += span;
     emulator_.advance(now_);
   }
-  const Emulator& printer() const { return emulator_; }
+  Emulator& printer() { return emulator_; }
 
  private:
   static EmulatorOptions with_card() {
@@ -61,6 +69,8 @@ class CardRig {
   }
 
   Emulator emulator_;
+  Wire to_printer_;
+  Wire to_host_;
   Instant now_{};
 };
 
@@ -95,6 +105,37 @@ TEST_CASE("card: a file is uploaded, listed, printed as from the host, and delet
 
   CHECK_FALSE(card_complaint(rig.ask({"M30 SAMPLE.GCO"}).back()));
   CHECK(card_files(rig.ask({"M20"}).back())->empty());
+}
+
+TEST_CASE("card: an upload over a noisy link writes the file and nothing else") {
+  std::vector<std::string> commands;
+  for (const std::string& line : sample_print(80)) {
+    if (const std::string command = strip_line(line); !command.empty()) commands.push_back(command);
+  }
+  std::string expected;
+  for (const std::string& command : commands) expected += wire_form(command, LineForm{}) + '\n';
+  std::vector<std::string> upload{"M28 SAMPLE.GCO"};
+  upload.insert(upload.end(), commands.begin(), commands.end());
+  upload.emplace_back("M29");
+
+  std::int64_t refused = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    WireOptions wires[2];
+    for (WireOptions& wire : wires) {
+      wire.baud = 115200;
+      wire.faults.flip = wire.faults.drop = wire.faults.insert = 3e-4;
+      wire.faults.spacing = 96;
+      wire.faults.seed = seed + (&wire == wires ? 0 : 1000);
+    }
+    CardRig rig(wires[0], wires[1]);
+    rig.ask(upload, seed % 2 == 0 ? 1 : 3);
+    INFO("seed " << seed);
+    const auto& files = rig.printer().card().files();
+    REQUIRE(files.contains("SAMPLE.GCO"));
+    CHECK(files.at("SAMPLE.GCO") == expected);
+    refused += rig.printer().report().refused_lines;
+  }
+  CHECK(refused > 20);
 }
 
 TEST_CASE("card: what cannot be opened is neither printed nor written, and nothing behind it is sent") {

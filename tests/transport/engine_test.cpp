@@ -338,25 +338,47 @@ TEST_CASE("engine: a probe erases a held line, an urgent command ends it") {
   CHECK(urged.engine.all_acknowledged());
 }
 
-TEST_CASE("engine: whole lines go ahead where an answer takes longer than a line and the printer is hungry") {
+TEST_CASE("engine: until an answer has shown how long one takes, ends are held") {
   EngineOptions options;
   options.form = {false, true};
   Bench bench;
   bench.engine = ProtocolEngine(options);
   bench.connect();
-  bench.submit("M114");
+  CHECK(bench.submit("G1 X1") == frame_line(1, "G1 X1"));
+  CHECK(bench.submit("G1 X2") == without_end(frame_line(2, "G1 X2")));
+}
+
+TEST_CASE(
+    "engine: whole lines go ahead, an error's time apart, where answers come late and the printer is "
+    "hungry") {
+  EngineOptions options;
+  options.form = {false, true};
+  Bench bench;
+  bench.engine = ProtocolEngine(options);
+  bench.connect();
+  bench.submit("G1 X1");
   bench.wait(16ms);
   bench.hear("ok\n");
   CHECK(bench.submit("G1 X2") == frame_line(2, "G1 X2"));
-  CHECK(bench.submit("G1 X3") == frame_line(3, "G1 X3"));
-  CHECK(bench.submit("G1 X4") == frame_line(4, "G1 X4"));
-  // Later its planner is full: there is time to be careful.
-  bench.wait(16ms);
+  // A refusal of line 2 is told, and the flush over, before the first byte of line 3 arrives. Line 2 is 12
+  // bytes of ten bits, the error at most 72.
+  CHECK(bench.submit("G1 X3").empty());
+  const Instant opens = *bench.engine.deadline();
+  CHECK(to_seconds(opens - bench.now) == Approx((12 + 72) * 10 / 115200.0));
+  CHECK(bench.wait(opens - bench.now - 1us).empty());
+  CHECK(bench.wait(1us) == frame_line(3, "G1 X3"));
+  CHECK(bench.submit("G1 X4").empty());
+  CHECK(bench.wait(8ms) == frame_line(4, "G1 X4"));
+  CHECK(bench.submit("G1 X5").empty());
+  CHECK(bench.wait(8ms).empty());
+  CHECK(bench.state() == "streaming 2 3 4");
   bench.hear("ok\n");
+  // Later its planner is full: there is time to be careful.
   bench.wait(100ms);
-  bench.hear("ok\nok\n");
-  CHECK(bench.submit("G1 X5") == frame_line(5, "G1 X5"));
-  CHECK(bench.submit("G1 X6") == without_end(frame_line(6, "G1 X6")));
+  bench.hear("ok\nok\nok\n");
+  REQUIRE(bench.engine.all_acknowledged());
+  CHECK(bench.submit("G1 X6") == frame_line(6, "G1 X6"));
+  CHECK(bench.submit("G1 X7") == without_end(frame_line(7, "G1 X7")));
 }
 
 TEST_CASE("engine: a doubled request, and one for the line that comes next anyway") {
@@ -557,6 +579,93 @@ TEST_CASE("engine: a doubled ok cannot acknowledge a line that has not left") {
   CHECK(bench.hear("ok\nok\n") == "N2 G1 X2*96\n");
   CHECK(bench.state() == "streaming 2");
   CHECK(bench.acknowledged() == Numbers{1});
+}
+
+namespace {
+
+/// The answer to M115, `apart` from one byte to the next.
+void tell_capabilities(Bench& bench, Duration apart) {
+  std::string answer;
+  for (int i = 0; i < 30; ++i) answer += fmt::format("Cap:SOMETHING_{}:1\n", i);
+  for (const char byte : answer) {
+    bench.now += apart;
+    bench.hear({byte});
+  }
+  bench.hear("ok\n");
+}
+
+}  // namespace
+
+TEST_CASE("engine: an ok that comes sooner than the wire allows is one too many") {
+  Bench bench(one_line());
+  bench.connect();
+  bench.submit("M115");
+  tell_capabilities(bench, 87us);
+  bench.acknowledged();
+  bench.submit("G1 X2");
+  bench.submit("G1 X3");
+  bench.wait(3ms);
+  // Line 3 takes a millisecond to arrive, its ok another quarter.
+  CHECK(bench.hear("ok\n") == frame_line(3, "G1 X3"));
+  bench.wait(1200us);
+  bench.hear("ok\n");
+  CHECK(bench.state() == "streaming 3");
+  CHECK(bench.take<StrayReply>().size() == 1);
+  bench.wait(100us);
+  bench.hear("ok\n");
+  CHECK(bench.acknowledged() == Numbers{2, 3});
+}
+
+TEST_CASE("engine: where the speed is only a number, an ok may come as soon as it likes") {
+  Bench bench(one_line());
+  bench.connect();
+  bench.submit("M115");
+  tell_capabilities(bench, 2us);
+  bench.submit("G1 X2");
+  bench.hear("ok\n");
+  CHECK(bench.engine.all_acknowledged());
+}
+
+TEST_CASE("engine: a refused ok after which nothing came is believed the next time") {
+  Bench bench(one_line());
+  bench.connect();
+  bench.submit("M115");
+  tell_capabilities(bench, 87us);
+  bench.submit("G1 X2");
+  bench.hear("ok\n");
+  REQUIRE(bench.state() == "streaming 2");
+  bench.wait(30s);
+  bench.wait(1s);
+  bench.hear("Error:Line Number is not Last Line Number+1, Last Line: 2\nResend: 3\nok\n");
+  bench.wait(50ms);
+  bench.hear("ok T:20.00 /0.00 @:0\n");
+  REQUIRE(bench.engine.all_acknowledged());
+  bench.submit("G1 X4");
+  bench.hear("ok\n");
+  CHECK(bench.engine.all_acknowledged());
+}
+
+TEST_CASE("engine: an ok cannot be for a line whose end was not sent") {
+  HeldBench bench;
+  bench.submit("G1 X2");
+  bench.submit("G1 X3");
+  bench.wait(1ms);
+  bench.hear("ok\nok\n");
+  CHECK(bench.state() == "streaming 3");
+  CHECK(bench.take<StrayReply>().size() == 1);
+}
+
+TEST_CASE("engine: lines asked for although their oks were there: those oks were for something else") {
+  Bench bench;
+  bench.connect();
+  bench.submit("G1 X1");
+  bench.submit("G1 X2");
+  bench.submit("G1 X3");
+  bench.hear("ok\nok\n");
+  REQUIRE(bench.acknowledged() == Numbers{1, 2});
+  bench.hear(kRefused2);
+  CHECK(bench.take<StrayReply>().size() == 1);
+  CHECK(bench.engine.statistics().stray_replies == 1);
 }
 
 TEST_CASE("engine: injected lines overtake job lines that wait") {

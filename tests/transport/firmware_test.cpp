@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/transport/emulator_talk.h"
 #include "transport/emulator/emulator.h"
 #include "transport/emulator/planner.h"
 #include "transport/protocol/line_framing.h"
@@ -16,10 +17,7 @@ using namespace lamina::transport;
 using namespace std::chrono_literals;
 
 EmulatorOptions everything() {
-  EmulatorOptions options;
-  options.greet = false;
-  options.thermal.room = 200;  // hot enough to extrude
-  options.record = RecordDetail::kBeads;
+  EmulatorOptions options = lamina::tests::hot_printer();
   FirmwareFeatures& features = options.features;
   features.host_actions = features.emergency_parser = features.sd_card = features.firmware_retraction = true;
   features.leveling = features.filament_change = features.cancel_objects = true;
@@ -27,18 +25,12 @@ EmulatorOptions everything() {
   return options;
 }
 
-struct Talk {
-  explicit Talk(const EmulatorOptions& options = everything()) : printer(options) {}
+struct Talk : lamina::tests::EmulatorTalk {
+  explicit Talk(const EmulatorOptions& options = everything()) : EmulatorTalk(options) {}
 
   std::string say(const std::string& bytes, Duration listen = 60s) {
-    printer.receive(bytes, now);
-    now += listen;
-    printer.advance(now);
-    return printer.take_output();
+    return EmulatorTalk::say(bytes, listen);
   }
-
-  Instant now{};
-  Emulator printer;
 };
 
 const std::string kPrompt = "//action:prompt_end\n//action:prompt_begin ";

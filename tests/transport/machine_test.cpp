@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/transport/emulator_talk.h"
 #include "transport/emulator/curve_segments.h"
 #include "transport/emulator/emulator.h"
 #include "transport/emulator/heater.h"
@@ -15,6 +16,7 @@
 namespace {
 
 using namespace lamina::transport;
+using lamina::tests::hot_printer;
 using namespace std::chrono_literals;
 
 /// No waiting before the first block, and a true standstill at both ends.
@@ -43,26 +45,12 @@ double run_dry(Planner& planner) {
   return to_seconds(now.time_since_epoch());
 }
 
-EmulatorOptions hot_machine() {
-  EmulatorOptions options;
-  options.greet = false;
-  options.thermal.room = 200;  // hot enough to extrude without heating
-  options.record = RecordDetail::kBeads;
-  return options;
-}
-
-struct Run {
-  explicit Run(const EmulatorOptions& options = hot_machine()) : printer(options) {}
+struct Run : lamina::tests::EmulatorTalk {
+  explicit Run(const EmulatorOptions& options = hot_printer()) : EmulatorTalk(options) {}
 
   std::string say(const std::string& bytes, Duration listen = 600s) {
-    printer.receive(bytes, now);
-    now += listen;
-    printer.advance(now);
-    return printer.take_output();
+    return EmulatorTalk::say(bytes, listen);
   }
-
-  Instant now{};
-  Emulator printer;
 };
 
 }  // namespace
@@ -273,7 +261,7 @@ TEST_CASE("emulator: coordinates absolute, relative, named anew, in inches") {
 }
 
 TEST_CASE("emulator: what the firmware prevents is counted") {
-  EmulatorOptions cold = hot_machine();
+  EmulatorOptions cold = hot_printer();
   cold.thermal.room = 20;
   Run run(cold);
   run.say("M83\n");
@@ -338,7 +326,7 @@ TEST_CASE("emulator: a planner that runs dry while extruding is an underrun, a w
 }
 
 TEST_CASE("emulator: bytes that find the buffer full are lost, or held back") {
-  EmulatorOptions options = hot_machine();
+  EmulatorOptions options = hot_printer();
   const std::string wait = "G4 S60\n";
   const std::string line = "G1 X1\n";
   std::string flood;

@@ -185,7 +185,38 @@ TEST_CASE("meatpack: a print packs its lines where the printer offers it, and de
   CHECK(unpacked.result.progress.wire.bytes_sent == plain.result.progress.wire.bytes_sent);
 }
 
-TEST_CASE("meatpack: over a bad link the unpacker is set right again and again") {
+TEST_CASE("meatpack: a link that has damaged a packed line gets them plain from there on") {
+  ProtocolEngine engine;
+  Instant now{};
+  const auto hear = [&](const std::string& bytes) {
+    engine.receive(bytes, now);
+    return engine.take_output();
+  };
+  const auto wait = [&](Duration time) {
+    now += time;
+    engine.tick(now);
+    return engine.take_output();
+  };
+  engine.connect(now);
+  hear("start\n");
+  wait(100ms);
+  hear("ok\n");
+  wait(100ms);
+  CHECK(hear("Cap:MEATPACK:1\n") == meatpack::start(true));
+  hear("[MP] PV01 ON NSP\n");
+  REQUIRE(engine.packs());
+  engine.submit("G1 X1", LineOrigin::kJob);
+  CHECK(wait(1ms) == meatpack::pack(frame_line(1, "G1X1", {false, true}), true));
+  hear("Error:checksum mismatch, Last Line: 0\nResend: 1\nok\n");
+  CHECK_FALSE(engine.packs());
+  const std::string off = meatpack::control(meatpack::kResetAll);
+  CHECK(wait(50ms) == off + frame_line(1, "G1X1", {false, false}));
+  // It may have missed that: whenever something is odd it is told again.
+  CHECK(wait(30s) == off + "\n");
+  CHECK(wait(1s).starts_with(off));
+}
+
+TEST_CASE("meatpack: over a bad link no line is lost or run twice") {
   const auto lines = lamina::tests::sample_print(150);
   EmulatedPrintOptions options;
   options.emulator.record = RecordDetail::kBeads;

@@ -10,7 +10,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/transport/port_reading.h"
 #include "tests/transport/sample_print.h"
+#include "tests/transport/served_printer.h"
 #include "transport/emulator/emulator_server.h"
 #include "transport/port/memory_port.h"
 #include "transport/port/pty_host.h"
@@ -22,19 +24,7 @@ namespace {
 
 using namespace lamina::transport;
 using namespace std::chrono_literals;
-using lamina::tests::sample_print;
-using lamina::tests::source_of;
-
-std::string read_within(Port& port, std::size_t count, Duration time) {
-  std::string read;
-  const auto end = std::chrono::steady_clock::now() + time;
-  while (read.size() < count && std::chrono::steady_clock::now() < end) {
-    std::array<char, 256> bytes;
-    read.append(bytes.data(), port.read(bytes));
-    if (read.size() < count) port.wait(10ms, false);
-  }
-  return read;
-}
+using namespace lamina::tests;
 
 /// Every byte there is, a few times over.
 std::string every_byte() {
@@ -51,38 +41,6 @@ PortProblem problem_of(const std::string& path) {
     return error.problem;
   }
   return PortProblem::kSystem;
-}
-
-/// An emulated printer in a thread of its own.
-class Printer {
- public:
-  Printer(Port& device, EmulatorServerOptions options)
-      : thread_([this, &device, options] { result = serve_emulator(device, options, stop_); }) {}
-  ~Printer() { stop(); }
-
-  void stop() {
-    stop_ = true;
-    if (thread_.joinable()) thread_.join();
-  }
-
-  EmulatorServerResult result;
-
- private:
-  std::atomic<bool> stop_ = false;
-  std::thread thread_;
-};
-
-EmulatorServerOptions fast_printer() {
-  EmulatorServerOptions options;
-  options.time_scale = 200;
-  return options;
-}
-
-PrintJobOptions quick_start() {
-  PrintJobOptions options;
-  options.engine.start_wait = 200ms;
-  // The printer's clock runs faster than this one: what takes it seconds is over here in milliseconds.
-  return options;
 }
 
 }  // namespace
@@ -163,7 +121,7 @@ TEST_CASE("port: memory ports carry bytes between threads, and notice a closed e
 
 TEST_CASE("runner: a print over a real pseudo-terminal, in real time") {
   PtyHost device;
-  Printer printer(device, fast_printer());
+  ServedPrinter printer(device, fast_printer());
   const auto host = open_port(device.path());
   PrintJob job(source_of(sample_print(120)), quick_start());
   int progress_calls = 0;
@@ -179,26 +137,24 @@ TEST_CASE("runner: a print over a real pseudo-terminal, in real time") {
   CHECK(job.printer().firmware.machine == "Lamina Emulated Printer");
   CHECK(job.printer().can("ARCS"));
   REQUIRE(result.progress.temperatures.find("T") != nullptr);
-  printer.stop();
-  CHECK(printer.result.report.beads == 120);
+  CHECK(printer.stop().report.beads == 120);
 }
 
 TEST_CASE("runner: a print over a memory port") {
   MemoryPorts ports = make_memory_ports();
-  Printer printer(*ports.device, fast_printer());
+  ServedPrinter printer(*ports.device, fast_printer());
   PrintJob job(source_of(sample_print(60)), quick_start());
   const std::atomic<bool> cancel = false;
   const PrintResult result = run_print(*ports.host, job, {}, cancel);
   CHECK(result.outcome == JobPhase::kCompleted);
-  printer.stop();
-  CHECK(printer.result.report.beads == 60);
+  CHECK(printer.stop().report.beads == 60);
 }
 
 TEST_CASE("runner: cancelled while heating, it comes back with the heaters off") {
   PtyHost device;
   EmulatorServerOptions slow = fast_printer();
   slow.time_scale = 1;
-  Printer printer(device, slow);
+  ServedPrinter printer(device, slow);
   const auto host = open_port(device.path());
   PrintJob job(source_of(sample_print(60)), quick_start());
   std::atomic<bool> cancel = false;

@@ -133,6 +133,15 @@ TEST_CASE("reply: lines are put together from pieces, whatever their ends") {
   CHECK(noise.front().size() == ReplyLines::kMaxReplyBytes);
 }
 
+TEST_CASE("reply: numbers that noise has made impossible are not taken") {
+  const auto report = std::get<TemperatureReport>(parse_reply(" T:20.0 /0.0 @:70000000000000000000"));
+  CHECK_FALSE(report.heaters.front().power);
+  const auto ok = std::get<OkReply>(parse_reply("ok N3 P99999999999 B-1"));
+  CHECK(ok.number == 3);
+  CHECK_FALSE(ok.planner_free);
+  CHECK_FALSE(ok.queue_free);
+}
+
 TEST_CASE("reply: noise is text, never a crash") {
   const std::uint64_t seed = 20261122;
   INFO("seed " << seed);

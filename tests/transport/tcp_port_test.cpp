@@ -10,6 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "tests/transport/port_reading.h"
 #include "tests/transport/sample_print.h"
 #include "tests/transport/served_printer.h"
 #include "transport/port/tcp_host.h"
@@ -38,17 +39,6 @@ std::optional<PortError> error_of(const std::string& address, Duration timeout =
 PortProblem problem_of(const std::string& address, Duration timeout = 5s) {
   const auto error = error_of(address, timeout);
   return error ? error->problem : PortProblem::kSystem;
-}
-
-std::string read_within(Port& port, std::size_t count, Duration time) {
-  std::string read;
-  const auto end = std::chrono::steady_clock::now() + time;
-  while (read.size() < count && std::chrono::steady_clock::now() < end) {
-    std::array<char, 256> bytes;
-    read.append(bytes.data(), port.read(bytes));
-    if (read.size() < count) port.wait(10ms, false);
-  }
-  return read;
 }
 
 /// A socket bound to this machine that nobody accepts from.

@@ -73,8 +73,7 @@ WireUse measure(const std::vector<std::string>& lines, const WireCase& wire, con
   use.limit = wire.baud / kBitsOfByte / bytes_of_line;
   use.bytes_lost = print.report.bytes_lost;
   use.underruns = print.report.underruns;
-  use.starved = to_seconds(print.report.starved);
-  use.told_starved = to_seconds(print.result.progress.wire.starved.total());
+  use.told_starved = to_seconds(print.result.progress.starved.total());
   use.moving = to_seconds(print.report.moving);
   return use;
 }

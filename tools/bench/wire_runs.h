@@ -23,8 +23,7 @@ struct WireUse {
   double limit = 0;             ///< lines/s that the wire can carry: its bytes, back to back
   std::int64_t bytes_lost = 0;  ///< by overruns of the receive buffer
   std::int64_t underruns = 0;
-  double starved = 0;       ///< s that the emulated planner was dry
-  double told_starved = 0;  ///< s that the host says it was short of moves
+  double told_starved = 0;  ///< s of motion that the host says were lost for want of lines
   double moving = 0;        ///< s
 
   double share() const { return limit > 0 ? lines_per_second / limit : 0; }

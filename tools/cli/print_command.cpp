@@ -22,6 +22,7 @@
 #include "tools/cli/print_console.h"
 #include "tools/cli/print_display.h"
 #include "tools/cli/print_journal.h"
+#include "tools/cli/print_outcome.h"
 #include "tools/cli/print_source.h"
 #include "tools/cli/print_trace.h"
 #include "tools/cli/profile_arguments.h"
@@ -38,7 +39,6 @@ namespace lamina::tools {
 namespace {
 
 constexpr double kMostBaud = 4e6;
-constexpr double kVolumeTolerance = 0.005;  // of the planned volume: what a faithful printer stays within
 
 struct PrintArguments {
   std::string input;
@@ -57,13 +57,6 @@ struct PrintArguments {
   PlacementArguments placement;
   bool json = false;
   bool quiet = false;
-};
-
-/// How a print went, on whatever it was printed.
-struct Outcome {
-  transport::PrintResult result;
-  std::optional<transport::EndReason> end;         ///< Why the conversation ended, where it did.
-  std::optional<transport::PrintReport> emulated;  ///< Of the emulated printer.
 };
 
 /// Left and back, where the part is seen best; on a round bed at its edge.
@@ -239,6 +232,7 @@ std::unique_ptr<transport::Port> open_printer(const PrintArguments& arguments,
   if (!arguments.baud && options.resume && options.resume->baud > 0) port_options.baud = options.resume->baud;
   std::unique_ptr<transport::Port> port = transport::open_port(arguments.port, port_options);
   options.baud = known || options.resume ? port_options.baud : transport::find_baud(*port);
+  options.engine.baud = is_serial(arguments.port) ? options.baud : 0;
   return port;
 }
 
@@ -249,8 +243,8 @@ transport::WireOptions wire(const profiles::Settings& settings) {
 }
 
 /// Over a port, by the clock.
-Outcome print_on_port(transport::Port& port, Printing& printing, transport::PrintJobOptions job_options,
-                      transport::JournalFile* journal, double time_scale) {
+PrintOutcome print_on_port(transport::Port& port, Printing& printing, transport::PrintJobOptions job_options,
+                           transport::JournalFile* journal, double time_scale) {
   transport::PrintJob job(printing.lines(), std::move(job_options));
   transport::RunOptions options(printing.callbacks());
   options.steer = [&](transport::PrintJob& running, transport::Instant now) {
@@ -258,17 +252,18 @@ Outcome print_on_port(transport::Port& port, Printing& printing, transport::Prin
   };
   options.journal = journal;
   options.time_scale = time_scale;
-  Outcome outcome;
+  PrintOutcome outcome;
   outcome.result = transport::run_print(port, job, options, printing.stop());
   outcome.end = printing.end();
   return outcome;
 }
 
 /// In simulated time.
-Outcome print_emulated(const profiles::Settings& settings, Printing& printing,
-                       transport::PrintJobOptions job_options) {
+PrintOutcome print_emulated(const profiles::Settings& settings, Printing& printing,
+                            transport::PrintJobOptions job_options) {
   transport::EmulatedPrintOptions options;
   options.job = std::move(job_options);
+  options.job.engine.baud = settings.port.baud;
   options.emulator = emulated_printer(settings);
   options.to_printer = wire(settings);
   options.to_host = wire(settings);
@@ -282,10 +277,11 @@ Outcome print_emulated(const profiles::Settings& settings, Printing& printing,
 }
 
 /// By the clock, `time_scale` times as fast: the emulated printer lives in a thread of its own.
-Outcome print_emulated(const profiles::Settings& settings, Printing& printing,
-                       transport::PrintJobOptions job_options, double time_scale,
-                       const std::string& trace_path) {
+PrintOutcome print_emulated(const profiles::Settings& settings, Printing& printing,
+                            transport::PrintJobOptions job_options, double time_scale,
+                            const std::string& trace_path) {
   transport::MemoryPorts ports = transport::make_memory_ports();
+  job_options.engine.baud = settings.port.baud;
   PrintTrace trace(trace_path, *ports.host, job_options.engine, 1);
   transport::EmulatorServerOptions options;
   options.emulator = emulated_printer(settings);
@@ -295,7 +291,7 @@ Outcome print_emulated(const profiles::Settings& settings, Printing& printing,
   std::atomic<bool> stop_emulator{false};
   transport::EmulatorServerResult emulated;
   std::thread emulator([&] { emulated = transport::serve_emulator(*ports.device, options, stop_emulator); });
-  Outcome outcome = print_on_port(trace.port(), printing, std::move(job_options), nullptr, 1);
+  PrintOutcome outcome = print_on_port(trace.port(), printing, std::move(job_options), nullptr, 1);
   stop_emulator = true;
   emulator.join();
   outcome.emulated = emulated.report;
@@ -312,70 +308,14 @@ std::unique_ptr<PrintSource> make_source(const PrintArguments& arguments,
   return make_model_source(std::make_unique<ModelGcode>(placed, profile.settings));
 }
 
-/// Deposited against planned volume: 0.01 = one percent too much.
-std::optional<double> volume_error(const Outcome& outcome, const PrintSource& source) {
-  if (!outcome.emulated || source.planned_filament() <= 0.0) return std::nullopt;
-  return outcome.emulated->filament / source.planned_filament() - 1.0;
-}
-
-void say_result(const PrintArguments& arguments, const Outcome& outcome, const PrintSource& source,
-                const gcode::FilamentOptions& filament) {
-  const transport::JobProgress& progress = outcome.result.progress;
-  const double planned = source.planned_filament() * filament.area();
-  const std::optional<double> error = volume_error(outcome, source);
-  const double seconds = transport::to_seconds(outcome.result.elapsed);
-  if (arguments.json) {
-    Json json{{"outcome", "completed"},
-              {"layers", source.layer()},
-              {"lines_sent", progress.job_lines_sent},
-              {"lines_acknowledged", progress.job_lines_acknowledged},
-              {"lines_sent_again", progress.wire.lines_sent_again},
-              {"seconds", seconds},
-              {"planned_mm3", planned}};
-    if (outcome.emulated) json["emulated"] = to_json(*outcome.emulated);
-    if (error) json["volume_error"] = *error;
-    std::cout << to_text(json) << '\n';
-    return;
-  }
-  std::cout << fmt::format("completed: {}\n  lines     {} sent, {} acknowledged, {} sent again\n",
-                           arguments.input, progress.job_lines_sent, progress.job_lines_acknowledged,
-                           progress.wire.lines_sent_again);
-  std::cout << fmt::format("  time      {}{}, heating and homing included\n", gcode::duration_text(seconds),
-                           outcome.emulated ? " on the emulated printer" : "");
-  if (outcome.emulated) std::cout << report_text(*outcome.emulated);
-  if (error)
-    std::cout << fmt::format("  planned   {:.2f} mm^3: {:+.3f} % deposited\n", planned, 100.0 * *error);
-}
-
-ExitCode exit_code(const Outcome& outcome) {
-  switch (outcome.result.failure_kind) {
-    case transport::JobFailure::kMismatch:
-      return ExitCode::kFit;
-    case transport::JobFailure::kSourceChanged:
-    case transport::JobFailure::kLine:
-      return ExitCode::kInput;
-    case transport::JobFailure::kNotResumable:
-    case transport::JobFailure::kColdExtrusion:
-    case transport::JobFailure::kDisconnected:
-      return ExitCode::kPrinter;
-    case transport::JobFailure::kNone:
-    case transport::JobFailure::kConversation:
-      break;
-  }
-  if (!outcome.end) return ExitCode::kPort;
-  const bool nobody =
-      *outcome.end == transport::EndReason::kNotAPrinter || *outcome.end == transport::EndReason::kNoAnswer;
-  return nobody ? ExitCode::kPort : ExitCode::kPrinter;
-}
-
 /// What to do after a failure, where the journal helps.
-std::string resume_hint(const PrintJournal& journal, const Outcome& outcome) {
+std::string resume_hint(const PrintJournal& journal, const PrintOutcome& outcome) {
   if (journal.file == nullptr || outcome.result.progress.job_lines_acknowledged == 0) return {};
   return fmt::format("the same command with --resume goes on with it ({})", journal.file->path().string());
 }
 
-Outcome print(const PrintArguments& arguments, const profiles::Settings& settings, const PrintSource& source,
-              Printing& printing, PrintJournal& journal) {
+PrintOutcome print(const PrintArguments& arguments, const profiles::Settings& settings,
+                   const PrintSource& source, Printing& printing, PrintJournal& journal) {
   transport::PrintJobOptions options = job_options(arguments, settings, source);
   if (arguments.emulate) {
     return arguments.time_scale ? print_emulated(settings, printing, std::move(options),
@@ -409,7 +349,7 @@ ExitCode run(const PrintArguments& arguments) {
   Printing printing(*source, display, console);
   if (!journal.forgotten.empty())
     say_warnings({"the unfinished print of " + journal.forgotten + " can no longer be resumed"});
-  const Outcome outcome = print(arguments, settings, *source, printing, journal);
+  const PrintOutcome outcome = print(arguments, settings, *source, printing, journal);
   bar.clear();
   printing.rethrow();
   if (outcome.result.outcome == transport::JobPhase::kCancelled) {
@@ -422,16 +362,8 @@ ExitCode run(const PrintArguments& arguments) {
     throw Failure(exit_code(outcome), outcome.result.failure, resume_hint(journal, outcome));
   }
   say_warnings(source->warnings());
-  say_result(arguments, outcome, *source, settings.gcode.filament);
-  const transport::JobProgress& progress = outcome.result.progress;
-  if (progress.job_lines_sent != progress.job_lines_acknowledged) {
-    throw Failure(ExitCode::kPrinter, "not every line was acknowledged");
-  }
-  if (const std::optional<double> error = volume_error(outcome, *source);
-      error && std::abs(*error) > kVolumeTolerance) {
-    throw Failure(ExitCode::kPrinter,
-                  fmt::format("the deposited volume is off by {:+.2f} %", 100.0 * *error));
-  }
+  say_outcome({arguments.input, arguments.json}, outcome, *source, settings.gcode.filament);
+  refuse_faults(outcome, *source);
   return ExitCode::kOk;
 }
 

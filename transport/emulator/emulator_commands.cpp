@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "transport/emulator/emulator.h"
+#include "transport/protocol/command_class.h"
 
 namespace lamina::transport {
 
@@ -54,7 +55,7 @@ void Emulator::begin_command(Instant now) {
     if (line.starts_with('N')) count_line(line);
     const bool tail = numbered_ && known && !line.starts_with('N');
     report.unnumbered_commands += tail ? 1 : 0;
-    report.unnumbered_moves += tail && command.letter == 'G' && command.code <= 5 ? 1 : 0;
+    report.unnumbered_moves += tail && classify(command.text) == CommandClass::kMotion ? 1 : 0;
   }
   if (running_->program.request_resend) {
     purge();

@@ -15,8 +15,9 @@ struct Window {
   std::size_t bytes = 127;
   /// Hold a line's end back until the line before it is acknowledged, where that keeps the wire as full. Then
   /// no whole line ever follows one that may be refused, and what the firmware's error flush leaves of a cut
-  /// line is erased by backspaces before anything can run it. Else (the answers take longer than a line, the
-  /// printer is hungry, and the link has lost nothing yet) whole lines go out ahead.
+  /// line is erased by backspaces before anything can run it. Else (the answers take longer than a line and
+  /// an error together, the printer is hungry, and the link has lost nothing yet) whole lines go out ahead,
+  /// each an error's time behind the one before. False: whole lines, as close as the window allows.
   bool hold_ends = true;
 };
 
@@ -44,7 +45,7 @@ struct EngineOptions {
   int baud = 115200;
   LineForm form;
 
-  /// Pack the lines where M115 offers it (Cap:MEATPACK:1).
+  /// Pack the lines where M115 offers it (Cap:MEATPACK:1), until one is damaged on its way.
   bool meatpack = true;
   /// For the answer to the request to unpack, and how often it is made before the lines stay as they are.
   Duration meatpack_wait = std::chrono::milliseconds(500);

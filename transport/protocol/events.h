@@ -26,6 +26,7 @@ struct LineSent {
 /// The printer has run the line (a move: has put it in its planner).
 struct LineAcknowledged {
   NumberedLine line;
+  bool at_once = true;  ///< as fast as the link allows: the planner had a place for it
 };
 
 /// The printer wants line `number` next; the engine goes back to it.

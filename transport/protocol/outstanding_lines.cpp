@@ -5,7 +5,7 @@
 namespace lamina::transport {
 
 std::optional<OutstandingLine> OutstandingLines::acknowledge_oldest() {
-  if (lines_.empty() || lines_.front().reports_temperature) return std::nullopt;
+  if (lines_.empty() || lines_.front().reports_temperature || lines_.front().held) return std::nullopt;
   return take(1).front();
 }
 
@@ -40,9 +40,10 @@ void OutstandingLines::forget_questions() {
                 [](const OutstandingLine& line) { return line.accepted && line.reports_temperature; });
 }
 
-void OutstandingLines::release_last(Instant now) {
+void OutstandingLines::release_last(Instant now, Instant left) {
   lines_.back().held = false;
   lines_.back().ended = now;
+  lines_.back().left = left;
 }
 
 std::size_t OutstandingLines::unaccepted_lines() const {

@@ -20,6 +20,7 @@ struct OutstandingLine {
   bool accepted = false;  ///< the printer has said that the line arrived whole; it may still be running
   bool held = false;      ///< its end has not been sent yet
   Instant ended{};        ///< when that was sent
+  Instant left{};         ///< when that had gone over the wire
 };
 
 /// The lines on their way, oldest first, as far as the printer's replies tell. The firmware runs them in this
@@ -29,8 +30,8 @@ class OutstandingLines {
   void add(const OutstandingLine& line) { lines_.push_back(line); }
   void clear() { lines_.clear(); }
 
-  /// Takes the oldest out, for a plain ok. None if there is none, or if it is an M105: that one's ok looks
-  /// different, so this ok was meant for something else.
+  /// Takes the oldest out, for a plain ok. None if that was meant for something else: there is no line, its
+  /// end has not been sent yet, or it is an M105, whose ok looks different.
   std::optional<OutstandingLine> acknowledge_oldest();
 
   /// Takes out everything up to and with line `number`, oldest first. Empty if that line is not here.
@@ -57,8 +58,8 @@ class OutstandingLines {
   /// The last one's end is held back.
   bool last_is_held() const { return !lines_.empty() && lines_.back().held; }
 
-  /// The end of the last one goes out.
-  void release_last(Instant now);
+  /// The end of the last one goes out at `now`, and has left at `left`.
+  void release_last(Instant now, Instant left);
 
   /// Lines and bytes that may still be in the printer's receive buffer: those not known to be accepted.
   std::size_t unaccepted_lines() const;

@@ -8,10 +8,11 @@
 
 #include "transport/protocol/engine_options.h"
 #include "transport/protocol/events.h"
+#include "transport/protocol/line_encoder.h"
 #include "transport/protocol/line_history.h"
 #include "transport/protocol/outstanding_lines.h"
 #include "transport/protocol/reply.h"
-#include "transport/protocol/starvation.h"
+#include "transport/protocol/send_window.h"
 #include "transport/time.h"
 
 namespace lamina::transport {
@@ -33,12 +34,12 @@ enum class EngineState {
   kEnded
 };
 
-/// Whether lines go out packed.
-enum class Packing {
-  kOff,
-  kOffered,  ///< to be switched on as soon as nothing is on its way
-  kAsked,    ///< the printer is to confirm; nothing else is sent
-  kOn
+/// Why the printer gets no line just now.
+enum class Obstacle {
+  kNone,      ///< it is not to run any yet, or no more
+  kWire,      ///< lines are on their way: the wire, or the printer itself, takes its time
+  kRecovery,  ///< lines have to be sent again, or asked for
+  kSource     ///< none was submitted
 };
 
 /// What has happened on the wire so far.
@@ -51,7 +52,6 @@ struct EngineStatistics {
   LineNumber probes = 0;
   LineNumber stray_replies = 0;
   LineNumber held_lines = 0;  ///< whose ends were held back
-  Starvation starved;         ///< how long the planner was short of moves, and why
 };
 
 /// The host's side of Marlin's serial protocol, without I/O, clock or thread: bytes and the time go in, bytes
@@ -126,10 +126,13 @@ class ProtocolEngine {
   LineNumber next_number() const { return history_.next(); }
 
   /// One line at a time is allowed now, be it after a resend or for good.
-  bool cautious() const;
+  bool cautious() const { return window_.cautious(); }
 
   /// Lines go out packed (MeatPack).
-  bool packs() const { return packing_ == Packing::kOn; }
+  bool packs() const { return encoder_.packs(); }
+
+  /// What keeps the printer from having more lines.
+  Obstacle obstacle() const;
 
   const EngineStatistics& statistics() const { return statistics_; }
 
@@ -150,7 +153,6 @@ class ProtocolEngine {
   void handle_start(Instant now);
   void handle_wait(Instant now);
   void handle_capability(const CapabilityReply& capability);
-  void handle_text(const TextReply& text);
 
   void greet(Instant now);
   void go_back_to(LineNumber number, Instant now);
@@ -161,30 +163,20 @@ class ProtocolEngine {
 
   /// Sees to it that lines are packed where they can be. False while nothing else may be sent.
   bool settle_packing(Instant now);
-  /// The bytes of a line on the wire, packed where that is on.
-  std::string encode(LineNumber number, std::string_view command) const;
-  /// The unpacker may have lost its place: the next bytes begin by setting it right.
-  std::string resynchronized(std::string bytes);
-  std::string packed(std::string bytes) const;
 
-  /// What keeps the printer from having more lines.
-  StarvationCause in_the_way() const;
-  void account_for_time(Instant now);
-
-  /// The last line was acknowledged as fast as the link allows: the planner had room.
-  bool answered_at_once() const;
-  /// The end of the next line is to be held back.
-  bool holds_ends() const;
+  /// Puts bytes that are no line of the print on the wire.
+  void put_out(std::string_view bytes, Instant now);
   /// Sends the end that was held back, when its time has come.
   void release_end(Instant now);
   /// What takes a held line, or what is left of it, out of the printer's line buffer.
   std::string eraser();
 
   void send_what_fits(Instant now);
-  bool fits(std::size_t bytes, std::string_view command) const;
-  void transmit(const NumberedLine& line, const std::string& bytes, bool again, Instant now);
+  /// Whether a line may go, now or without its end.
+  Leave leave(std::size_t bytes, std::string_view command, Instant now) const;
+  void transmit(const NumberedLine& line, const std::string& bytes, const Leave& leave, bool again,
+                Instant now);
   void acknowledge(const OutstandingLine& line);
-  void be_cautious();
   void stray(const std::string& text);
   /// Lines that the printer has and that were not yet acknowledged; a blocking one may take minutes and is
   /// not counted.
@@ -196,6 +188,9 @@ class ProtocolEngine {
   ReplyLines reply_lines_;
   LineHistory history_;
   OutstandingLines outstanding_;
+  LineEncoder encoder_;
+  WireClock wire_;
+  SendWindow window_;
   std::deque<QueuedLine> injected_;
   std::deque<QueuedLine> job_;
   std::string output_;
@@ -224,25 +219,18 @@ class ProtocolEngine {
   std::optional<Instant> resend_ok_until_;
   /// The next plain ok belongs to a command that was never sent.
   bool stray_ok_follows_ = false;
+  /// The last plain ok was not believed, as it came too early for any line.
+  bool early_ok_refused_ = false;
 
   LineNumber requested_ = -1;  ///< the line asked for last
   int requests_ = 0;           ///< how often in a row
-  std::size_t cautious_left_ = 0;
-  bool noisy_ = false;
   bool busy_lines_seen_ = false;
   bool numbered_oks_seen_ = false;
   bool sync_wanted_ = false;  ///< an M105 is to go out before any new line
+  bool writes_file_ = false;  ///< between M28 and M29 lines are written to the card, not run
 
-  /// From a line's end to its ok: the shortest of all so far, and the last one.
-  std::optional<Duration> turnaround_;
-  Duration last_turnaround_{};
-  StarvationClock starvation_;
-  bool erase_wanted_ = false;  ///< a line without an end may lie in the printer's line buffer
-
-  Packing packing_ = Packing::kOff;
-  int packing_requests_ = 0;
-  Instant packing_due_{};
-  bool unpacker_in_doubt_ = false;
+  std::optional<Instant> window_opens_;  ///< for the line that waits
+  bool erase_wanted_ = false;            ///< a line without an end may lie in the printer's line buffer
 };
 
 }  // namespace lamina::transport

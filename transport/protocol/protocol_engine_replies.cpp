@@ -39,7 +39,7 @@ void ProtocolEngine::handle(const Reply& reply, Instant now) {
   if (std::holds_alternative<StartReply>(reply)) handle_start(now);
   if (std::holds_alternative<WaitReply>(reply)) handle_wait(now);
   if (const auto* capability = std::get_if<CapabilityReply>(&reply)) handle_capability(*capability);
-  if (const auto* text = std::get_if<TextReply>(&reply)) handle_text(*text);
+  if (const auto* text = std::get_if<TextReply>(&reply)) encoder_.answered(text->text);
   if (std::holds_alternative<BusyReply>(reply)) {
     busy_lines_seen_ = true;
     last_progress_ = now;
@@ -91,23 +91,22 @@ void ProtocolEngine::handle_ok(const OkReply& ok, Instant now) {
   } else if (ok.temperatures) {
     acknowledged = outstanding_.acknowledge_temperature_report();
   } else if (!outstanding_.empty() && !(numbered_oks_seen_ && outstanding_.oldest().number)) {
-    // A firmware that numbers its oks leaves the number away only where the line had none.
-    if (const auto oldest = outstanding_.acknowledge_oldest()) acknowledged.push_back(*oldest);
+    // A firmware that numbers its oks leaves the number away only where the line had none. One that is here
+    // before its line was there was said twice.
+    early_ok_refused_ = wire_.too_early(outstanding_.oldest().left, now);
+    if (const auto oldest = early_ok_refused_ ? std::nullopt : outstanding_.acknowledge_oldest())
+      acknowledged.push_back(*oldest);
   }
   if (acknowledged.empty()) {
     stray("ok");
     return;
   }
-  if (state_ == EngineState::kStreaming && !acknowledged.back().held) {
-    last_turnaround_ = now - acknowledged.back().ended;
-    turnaround_ = std::min(turnaround_.value_or(last_turnaround_), last_turnaround_);
-  }
-  if (ok.planner_free) starvation_.planner_free(*ok.planner_free);
-  if (acknowledged.back().command_class == CommandClass::kMotion) {
-    starvation_.move_acknowledged(answered_at_once());
-  } else if (acknowledged.back().command_class == CommandClass::kBlocking) {
-    starvation_.rests();
-  }
+  const OutstandingLine& last = acknowledged.back();
+  if (state_ == EngineState::kStreaming && !last.held)
+    window_.answered(now - wire_.departure(last.ended, last.left));
+  if (ok.planner_free) window_.planner_free(*ok.planner_free);
+  if (last.command_class == CommandClass::kMotion) window_.move_acknowledged();
+  if (last.command_class == CommandClass::kBlocking) window_.rests();
   for (const OutstandingLine& line : acknowledged) acknowledge(line);
   last_progress_ = now;
   fruitless_probes_ = 0;
@@ -222,16 +221,7 @@ void ProtocolEngine::handle_wait(Instant now) {
 }
 
 void ProtocolEngine::handle_capability(const CapabilityReply& capability) {
-  if (options_.meatpack && capability.name == "MEATPACK" && capability.present && packing_ == Packing::kOff &&
-      packing_requests_ == 0)
-    packing_ = Packing::kOffered;
-}
-
-void ProtocolEngine::handle_text(const TextReply& text) {
-  // "[MP] PV01 ON NSP"
-  const bool confirmed = packing_ == Packing::kAsked && text.text.starts_with("[MP]") &&
-                         text.text.find(options_.form.blanks ? " ON ESP" : " ON NSP") != std::string::npos;
-  if (confirmed) packing_ = Packing::kOn;
+  if (capability.name == "MEATPACK" && capability.present) encoder_.offered();
 }
 
 void ProtocolEngine::stray(const std::string& text) {

@@ -11,6 +11,11 @@ namespace lamina::transport {
 
 namespace {
 
+constexpr double kMostPower = 255;
+
+/// Of planner and queue.
+constexpr LineNumber kMostPlaces = 1000;
+
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -88,8 +93,10 @@ std::optional<TemperatureReport> parse_temperatures(std::string_view text) {
     if (const std::size_t at = key.find('@'); at != std::string_view::npos) {
       // "@" and "B@" carry the power of heater "T" and "B", "@0" that of "T0".
       const std::string heater = at > 0 ? std::string(key.substr(0, at)) : fmt::format("T{}", key.substr(1));
+      // What noise makes of it may be any number, or none.
+      const bool plausible = value->first >= 0 && value->first <= kMostPower;
       for (HeaterReading& reading : report.heaters) {
-        if (reading.heater == heater) reading.power = static_cast<int>(value->first);
+        if (reading.heater == heater && plausible) reading.power = static_cast<int>(value->first);
       }
       continue;
     }
@@ -130,8 +137,9 @@ std::optional<OkReply> parse_ok(std::string_view line) {
     const auto number = leading_number<LineNumber>(rest.substr(1));
     if (!number) break;
     if (key == 'N') reply.number = number->first;
-    if (key == 'P') reply.planner_free = static_cast<int>(number->first);
-    if (key == 'B') reply.queue_free = static_cast<int>(number->first);
+    const bool plausible = number->first >= 0 && number->first <= kMostPlaces;
+    if (key == 'P' && plausible) reply.planner_free = static_cast<int>(number->first);
+    if (key == 'B' && plausible) reply.queue_free = static_cast<int>(number->first);
     rest = trim(rest.substr(1 + number->second));
   }
   return reply;

@@ -25,11 +25,13 @@ PrintJob::PrintJob(LineSource source, PrintJobOptions options)
     : options_(std::move(options)), reader_(std::move(source)), engine_(options_.engine) {}
 
 void PrintJob::receive(std::string_view bytes, Instant now) {
+  account_for_time(now);
   engine_.receive(bytes, now);
   observe(now);
 }
 
 void PrintJob::tick(Instant now) {
+  account_for_time(now);
   engine_.tick(now);
   if (progress_.phase == JobPhase::kPaused) cool_down_parked(now);
   if (progress_.phase == JobPhase::kCancelling) break_waits(now);
@@ -82,6 +84,10 @@ bool PrintJob::finished() const {
          progress_.phase == JobPhase::kFailed;
 }
 
+void PrintJob::account_for_time(Instant now) {
+  starvation_.advance(now, progress_.phase == JobPhase::kPrinting ? engine_.obstacle() : Obstacle::kNone);
+}
+
 void PrintJob::observe(Instant now) {
   while (true) {
     std::vector<Event> events = engine_.take_events();
@@ -93,6 +99,7 @@ void PrintJob::observe(Instant now) {
     engine_.tick(now);  // what was submitted may go out at once, and make room for more
   }
   progress_.wire = engine_.statistics();
+  progress_.starved = starvation_.total();
   progress_.cautious = engine_.cautious();
   progress_.source_lines = reader_.position().lines;
   progress_.source_bytes = reader_.position().bytes;
@@ -108,8 +115,7 @@ void PrintJob::observe(const Event& event, Instant now) {
   if (std::holds_alternative<Connected>(event)) on_connected();
   if (const auto* rejoined = std::get_if<Rejoined>(&event)) on_rejoined(rejoined->next);
   if (const auto* sent = std::get_if<LineSent>(&event); sent != nullptr && !sent->again) on_sent(sent->line);
-  if (const auto* acknowledged = std::get_if<LineAcknowledged>(&event))
-    on_acknowledged(acknowledged->line, now);
+  if (const auto* acknowledged = std::get_if<LineAcknowledged>(&event)) on_acknowledged(*acknowledged, now);
   if (const auto* received = std::get_if<ReplyReceived>(&event)) on_reply(received->reply, now);
   if (const auto* refused = std::get_if<LineRefused>(&event)) {
     // A part without one of its lines is not the part; a mistyped console command is only that.

@@ -18,6 +18,7 @@
 #include "transport/session/parking.h"
 #include "transport/session/printer_facts.h"
 #include "transport/session/source_reader.h"
+#include "transport/session/starvation.h"
 #include "transport/time.h"
 
 namespace lamina::transport {
@@ -103,6 +104,7 @@ struct JobProgress {
   TemperatureReport temperatures;   ///< the latest; empty before the first
   std::optional<int> planner_free;  ///< blocks, as the last ok told
   EngineStatistics wire;
+  Starvation starved;                  ///< at most, see StarvationClock
   bool cautious = false;               ///< one line at a time just now
   std::int64_t parked_for_source = 0;  ///< how often the source was too slow
   Instigator paused_by = Instigator::kUser;
@@ -170,10 +172,11 @@ class PrintJob {
   bool take_discard();
 
  private:
+  void account_for_time(Instant now);
   void observe(Instant now);
   void observe(const Event& event, Instant now);
   void on_sent(const NumberedLine& line);
-  void on_acknowledged(const NumberedLine& line, Instant now);
+  void on_acknowledged(const LineAcknowledged& acknowledged, Instant now);
   void on_reply(const Reply& reply, Instant now);
   void on_host_action(const HostActionReply& action, Instant now);
   void on_unknown_command(const std::string& command);
@@ -210,6 +213,7 @@ class PrintJob {
   SourceReader reader_;
   ProtocolEngine engine_;
   ExecutionLog log_;
+  StarvationClock starvation_;
   std::deque<SourceMark> supplied_;  ///< of job lines that the engine has not sent yet
   JobProgress progress_;
   PrinterFacts facts_;

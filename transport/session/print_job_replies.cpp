@@ -20,7 +20,9 @@ void PrintJob::on_sent(const NumberedLine& line) {
   log_.sent(line, mark);
 }
 
-void PrintJob::on_acknowledged(const NumberedLine& line, Instant now) {
+void PrintJob::on_acknowledged(const LineAcknowledged& acknowledged, Instant now) {
+  const NumberedLine& line = acknowledged.line;
+  starvation_.acknowledged(acknowledged, now);
   log_.acknowledged(line.number);
   progress_.waits_for_user = false;
   if (line.origin == LineOrigin::kJob) {
