@@ -38,7 +38,7 @@ TEST_CASE("the vertebra's way through the house, with the numbers of ARCHITECTUR
   CHECK(layer->report.nodes == 3323);
   CHECK(layer->report.tiles == 46);
   CHECK(layer->report.components == 2);
-  CHECK(layer->report.control_points == 212);
+  CHECK(layer->report.control_points == 200);
   CHECK(layer->closed.size() == 2);
 
   const gcode::LayerRegion region = gcode::make_region(*layer, {});

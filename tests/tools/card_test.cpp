@@ -40,6 +40,7 @@ TEST_CASE("a file is uploaded to the printer's card, listed, printed, watched an
   const Json progress = Json::parse(read_text(folder / "progress.json"));
   CHECK(progress["printing"] == true);
   CHECK(progress["bytes"] == list[0]["bytes"]);
+  CHECK(Json::parse(read_text(folder / "now.json"))["printing"] == false);
   // What the card printed is what the host would have printed.
   const Json printer = Json::parse(read_text(folder / "printer.json"));
   const Json expected = Json::parse(run_lamina(folder, "print box.gcode --emulate --json").out);

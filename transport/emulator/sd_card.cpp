@@ -27,7 +27,7 @@ std::optional<std::string> SdCard::next_line() {
   if (!printing_) return std::nullopt;
   const std::string& content = files_.at(*selected_);
   if (position_ >= content.size()) {
-    printing_ = false;
+    abort();
     return std::nullopt;
   }
   const std::size_t end = std::min(content.find('\n', position_), content.size());

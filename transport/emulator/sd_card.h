@@ -31,7 +31,8 @@ class SdCard {
   void abort();
   bool printing() const { return printing_; }
 
-  /// The next line of the file that is being printed; none at its end, which also ends the printing.
+  /// The next line of the file that is being printed; none at its end, which also ends the printing and
+  /// closes the file, as in Marlin.
   std::optional<std::string> next_line();
 
   /// M28: from here on lines are written down instead of run. The file is there when it is closed (M29).
