@@ -792,3 +792,31 @@ TEST_CASE("engine: after a resend one line at a time, later the window again, on
   }
   CHECK(bench.engine.cautious());
 }
+
+TEST_CASE("engine: an ok for something else does not stand for the answer that a rejoining host asks for") {
+  ProtocolEngine engine{EngineOptions{}};
+  Instant now{};
+  engine.rejoin(now);
+  now += 10s;
+  engine.tick(now);
+  REQUIRE(engine.state() == EngineState::kProbing);
+  engine.send_urgent("M108", now);
+  engine.receive("ok\n", now);
+  CHECK(engine.state() == EngineState::kProbing);
+  // Until the printer has said where it is, no line is numbered.
+  engine.submit("G1 X1", LineOrigin::kJob);
+  for (int k = 0; k < 5 && engine.state() == EngineState::kProbing; ++k) {
+    now = engine.deadline().value_or(now + 1s);
+    engine.tick(now);
+  }
+  for (const Event& event : engine.take_events()) CHECK_FALSE(std::holds_alternative<LineSent>(event));
+  engine.receive("Error:Line Number is not Last Line Number+1, Last Line: 41\nResend: 42\nok\n", now);
+  bool rejoined = false;
+  for (const Event& event : engine.take_events()) {
+    if (const auto* answer = std::get_if<Rejoined>(&event)) {
+      rejoined = true;
+      CHECK(answer->next == 42);
+    }
+  }
+  CHECK(rejoined);
+}

@@ -110,8 +110,9 @@ void ProtocolEngine::handle_ok(const OkReply& ok, Instant now) {
   for (const OutstandingLine& line : acknowledged) acknowledge(line);
   last_progress_ = now;
   fruitless_probes_ = 0;
-  if (state_ == EngineState::kProbing && !question_sent_ && outstanding_.empty()) {
-    // It was only late. Nothing has been asked yet, so no answer is under way.
+  if (state_ == EngineState::kProbing && !rejoining_ && !question_sent_ && outstanding_.empty()) {
+    // It was only late. Nothing has been asked yet, so no answer is under way. A host that rejoins has to
+    // ask.
     state_ = EngineState::kDraining;
     due_ = now + options_.drain_quiet;
   }
