@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/geometry/arc_length.h"
+#include "engine/geometry/cross_product.h"
 
 namespace lamina::engine {
 namespace {
@@ -16,10 +17,6 @@ constexpr double kJointAngle = 1e-4;         // rad; above it a joint is a corne
 constexpr double kUnbalancedSagitta = 0.02;  // of the tolerance: a single inscribed chord may stand for this
 constexpr double kMeasuredShare =
     0.98;  // of the tolerance: between the measured places the distance may be greater
-
-double cross(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 bool is_line(const CurvePiece& piece) {
   return std::holds_alternative<LineSegment>(piece);

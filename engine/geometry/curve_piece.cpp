@@ -7,15 +7,12 @@
 #include <numbers>
 
 #include "engine/geometry/basis_window.h"
+#include "engine/geometry/cross_product.h"
 
 namespace lamina::engine {
 namespace {
 
 using std::numbers::pi;
-
-double cross(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 Vector2 quarter_turn(const Vector2& v) {
   return {-v.y(), v.x()};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "engine/geometry/cross_product.h"
 #include "engine/geometry/segment_distance.h"
 #include "engine/grid/cell_walk.h"
 
@@ -38,10 +39,6 @@ void draw(const NodeChain& chain, double epsilon, Enter enter) {
       enter(s, cell);
     });
   }
-}
-
-double cross(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 bool segments_meet(const Vector2& a, const Vector2& b, const Vector2& c, const Vector2& d, double tolerance) {

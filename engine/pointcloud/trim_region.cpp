@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/geometry/bspline_basis.h"
+#include "engine/geometry/cross_product.h"
 
 namespace lamina::engine {
 namespace {
@@ -23,10 +24,6 @@ double distance_to_line(const Vector2& p, const Vector2& a, const Vector2& b) {
   const double length = along.norm();
   if (length == 0.0) return (p - a).norm();
   return std::abs(along.x() * (p - a).y() - along.y() * (p - a).x()) / length;
-}
-
-double cross(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/geometry/cross_product.h"
+
 namespace lamina::engine {
 namespace {
 
@@ -17,10 +19,6 @@ constexpr double kRelaxation = 64.0;
 constexpr double kGreatestExcess = 0.3;
 constexpr std::size_t kLeastLineSegments = 1;
 constexpr std::size_t kLeastArcSegments = 2;
-
-double cross(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 struct Line {
   Vector2 origin;

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/geometry/cross_product.h"
+
 namespace lamina::engine {
 namespace {
 
 constexpr double kSamePlace = 1e-9;  // mm, to which nodes are exact
 constexpr double kUnknownCornerAngle = std::numbers::pi / 6;
-
-double cross(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 double turn(const Vector2& from, const Vector2& to) {
   return std::atan2(cross(from, to), from.dot(to));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/geometry/basis_window.h"
+#include "engine/geometry/cross_product.h"
 
 namespace lamina::engine {
 namespace {
@@ -16,10 +17,6 @@ constexpr double kLeastHeading = 0.5;
 /// A slip moves the foot point by second order; what it leaves is far below any tolerance once it is this
 /// part of the way between two samples.
 constexpr double kSmallSlip = 0.05;
-
-double cross(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Direction of the chain that far along; `node` is advanced to the one before.
 Vector2 tangent_at(const WalkedChain& walk, double walked, std::size_t& node) {

@@ -8,6 +8,7 @@
 #include "engine/contour/fit/spline_distance.h"
 #include "engine/contour/fit/spline_trial.h"
 #include "engine/contour/fit/walked_chain.h"
+#include "engine/geometry/cross_product.h"
 
 namespace lamina::engine {
 namespace {
@@ -208,7 +209,7 @@ class Searcher {
 double evenly_turning_spans(const SmoothChain& chain, std::size_t segment, double length, double tolerance) {
   const Vector2& a = chain.tangents[segment];
   const Vector2& b = chain.tangents[segment + 1];
-  const double turn = std::abs(a.x() * b.y() - a.y() * b.x());
+  const double turn = std::abs(cross(a, b));
   return std::sqrt(std::sqrt(turn * turn * turn * length / (500.0 * tolerance)));
 }
 

@@ -5,14 +5,12 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/geometry/cross_product.h"
+
 namespace lamina::engine {
 namespace {
 
 constexpr double kAlongWeight = 0.0001;
-
-double cross(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// The one inner control point of a single parabola: where the end tangents meet, ahead of the start and
 /// behind the end.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/contour/fit/knot_density.h"
+#include "engine/geometry/cross_product.h"
 
 namespace lamina::engine {
 namespace {
@@ -108,7 +109,7 @@ Knots SplineTrials::first_knots(int degree, std::size_t spans) const {
   for (std::size_t i = 0; i < walk_.segments(); ++i) {
     const Vector2& a = walk_.chain.tangents[i];
     const Vector2& b = walk_.chain.tangents[i + 1];
-    turns.push_back(std::abs(a.x() * b.y() - a.y() * b.x()));
+    turns.push_back(std::abs(cross(a, b)));
     turning += turns.back();
   }
   const double mean = (turning + 0.1) / walk_.walked.back();
