@@ -13,18 +13,6 @@
 namespace lamina::engine {
 namespace {
 
-bool contains(const Loop& loop, const Vector2& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
-    if ((loop[i].y() > p.y()) != (loop[j].y() > p.y()) &&
-        p.x() <
-            (loop[j].x() - loop[i].x()) * (p.y() - loop[i].y()) / (loop[j].y() - loop[i].y()) + loop[i].x()) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
-
 /// An edge in the plane, with what is asked about it.
 struct Edge {
   SectionArc arc;

@@ -69,50 +69,6 @@ Polyline flatten(const PlanarCurve& curve, double tolerance) {
   return points;
 }
 
-Loop flatten_closed(const PlanarCurve& curve, double tolerance) {
-  Loop loop = flatten(curve, tolerance);
-  if (loop.size() > 1) loop.pop_back();
-  return loop;
-}
-
-Polyline sample_evenly(const PlanarCurve& curve, double step) {
-  // A chain fine enough that chord length stands for arc length: sagitta s on a chord of length c makes the
-  // arc longer by the factor 1 + (8/3)(s/c)^2, and s <= step / 400 while chords much shorter than the step
-  // add nothing.
-  const Polyline fine = flatten(curve, step / 400.0);
-  const double total = length(fine);
-  const double intervals = std::max(1.0, std::ceil(total / step));
-  Polyline points{fine.front()};
-  double walked = 0.0;
-  double next = 1.0;
-  for (std::size_t i = 1; i < fine.size(); ++i) {
-    const double side = (fine[i] - fine[i - 1]).norm();
-    while (next < intervals && next * total / intervals <= walked + side && side > 0.0) {
-      const double along = (next * total / intervals - walked) / side;
-      points.push_back(fine[i - 1] + along * (fine[i] - fine[i - 1]));
-      ++next;
-    }
-    walked += side;
-  }
-  points.push_back(fine.back());
-  return points;
-}
-
-PlanarCurve polyline_curve(const Polyline& points) {
-  PlanarCurve curve;
-  curve.degree = 1;
-  curve.control_points = points;
-  const double total = length(points);
-  curve.knots = {0.0, 0.0};
-  double walked = 0.0;
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    walked += (points[i] - points[i - 1]).norm();
-    curve.knots.push_back(walked / total);
-  }
-  curve.knots.insert(curve.knots.end(), {1.0, 1.0});
-  return curve;
-}
-
 Box2 control_box(const PlanarCurve& curve) {
   Box2 box;
   for (const Vector2& point : curve.control_points) box.extend(point);

@@ -30,16 +30,6 @@ Vector2 evaluate_derivative(const PlanarCurve& curve, double t);
 /// the chord, (1/8) h^2 max|C''| (de Boor, A Practical Guide to Splines, on broken-line interpolation).
 Polyline flatten(const PlanarCurve& curve, double tolerance);
 
-/// The same for a curve that ends where it began: the repeated last point is left out.
-Loop flatten_closed(const PlanarCurve& curve, double tolerance);
-
-/// Points along the curve, evenly spaced along its arc length: both ends included, neighbours at most `step`
-/// mm apart (measured along the curve, to 1e-4 of the step).
-Polyline sample_evenly(const PlanarCurve& curve, double step);
-
-/// The curve through a chain of points by straight pieces (degree 1, chord-length parameters on [0, 1]).
-PlanarCurve polyline_curve(const Polyline& points);
-
 /// Smallest box around the control points; it contains the curve (convex-hull property).
 Box2 control_box(const PlanarCurve& curve);
 

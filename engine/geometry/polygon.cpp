@@ -24,6 +24,19 @@ double perimeter(const Loop& loop) {
   return loop.empty() ? 0.0 : length(loop) + (loop.front() - loop.back()).norm();
 }
 
+bool contains(const Loop& loop, const Vector2& point) {
+  bool inside = false;
+  for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+    const Vector2& a = loop[i];
+    const Vector2& b = loop[j];
+    if ((a.y() > point.y()) != (b.y() > point.y()) &&
+        point.x() < (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()) + a.x()) {
+      inside = !inside;
+    }
+  }
+  return inside;
+}
+
 double area(const Region& region) {
   double sum = 0.0;
   for (const Polygon& polygon : region) {

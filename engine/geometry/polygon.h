@@ -30,6 +30,9 @@ double length(const Polyline& line);
 /// Length of a closed loop, its last side included, mm.
 double perimeter(const Loop& loop);
 
+/// Whether a point lies inside a closed loop, by parity of the crossings of a ray.
+bool contains(const Loop& loop, const Vector2& point);
+
 /// Area of a region, holes subtracted, mm^2.
 double area(const Region& region);
 

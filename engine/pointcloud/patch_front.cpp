@@ -13,6 +13,7 @@ PatchFront::PatchFront(const Model& model) {
   for (const Surface& surface : model.surfaces) {
     sources_.push_back(std::make_shared<PatchSource>(surface, static_cast<std::uint32_t>(sources_.size())));
     count += sources_.back()->count();
+    if (sources_.back()->trim() != nullptr) regions_.push_back(sources_.back()->trim());
   }
   spans_.reserve(count);
   for (const auto& source : sources_) {
@@ -35,10 +36,8 @@ void PatchFront::advance(double z, double reach) {
     ++state_.added;
   }
   state_.regions.clear();
-  for (const auto& source : sources_) {
-    const auto& region = source->trim();
-    if (region != nullptr && region->z_min() <= z + reach && region->z_max() >= z - reach)
-      state_.regions.push_back(region);
+  for (const auto& region : regions_) {
+    if (region->z_min() <= z + reach && region->z_max() >= z - reach) state_.regions.push_back(region);
   }
 }
 

@@ -27,6 +27,7 @@ class PatchFront {
 
  private:
   std::vector<std::shared_ptr<const PatchSource>> sources_;
+  std::vector<std::shared_ptr<const TrimRegion>> regions_;  // of the trimmed ones
   std::vector<PatchSource::Span> spans_;
   FrontState state_;
   std::size_t next_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -53,10 +54,14 @@ TrimRegion::TrimRegion(const Surface& surface, std::uint32_t number)
   z_min_ = std::numeric_limits<double>::infinity();
   z_max_ = -z_min_;
   for (const auto& edge : samples_) {
-    for (const EdgeSample& sample : edge) {
-      z_min_ = std::min(z_min_, sample.position.z());
-      z_max_ = std::max(z_max_, sample.position.z());
-    }
+    const auto [low, high] = std::minmax_element(
+        edge.begin(), edge.end(),
+        [](const EdgeSample& a, const EdgeSample& b) { return a.position.z() < b.position.z(); });
+    const auto& [bottom, top] = heights_.emplace_back(low->position.z(), high->position.z());
+    if (top - bottom <= 2.0 * kModelTolerance)
+      level_edges_.push_back(static_cast<std::uint32_t>(heights_.size() - 1));
+    z_min_ = std::min(z_min_, bottom);
+    z_max_ = std::max(z_max_, top);
   }
   const Box3 box = control_box(surface_.net);
   level_ = box.max().z() - box.min().z() <= kModelTolerance;
@@ -149,9 +154,15 @@ double TrimRegion::turning(std::size_t loop) const {
 }
 
 bool TrimRegion::is_level(std::uint32_t edge, double z) const {
-  return std::all_of(samples_[edge].begin(), samples_[edge].end(), [z](const EdgeSample& sample) {
-    return std::abs(sample.position.z() - z) <= kModelTolerance;
-  });
+  const auto [low, high] = heights_[edge];
+  return std::abs(low - z) <= kModelTolerance && std::abs(high - z) <= kModelTolerance;
+}
+
+std::vector<std::uint32_t> TrimRegion::edges_in_plane(double z) const {
+  std::vector<std::uint32_t> edges;
+  std::copy_if(level_edges_.begin(), level_edges_.end(), std::back_inserter(edges),
+               [&](std::uint32_t edge) { return is_level(edge, z); });
+  return edges;
 }
 
 bool TrimRegion::contains(const Vector2& p) const {

@@ -45,8 +45,10 @@ class TrimRegion {
   Vector3 on_surface(const Vector2& parameters) const {
     return evaluate(surface_, parameters.x(), parameters.y());
   }
-  /// Whether an edge lies in the plane, to the model tolerance.
+  /// Whether an edge lies in the plane at height z, to the model tolerance.
   bool is_level(std::uint32_t edge, double z) const;
+  /// All edges that do.
+  std::vector<std::uint32_t> edges_in_plane(double z) const;
   /// Edges of each loop, [first, last).
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& loops() const { return loops_; }
   /// Twice the area of a loop in the parameter plane, positive counter-clockwise.
@@ -92,6 +94,8 @@ class TrimRegion {
   std::uint32_t number_;
   std::vector<NurbsCurve> edges_;
   std::vector<std::vector<EdgeSample>> samples_;
+  std::vector<std::pair<double, double>> heights_;  ///< z interval of each edge, mm
+  std::vector<std::uint32_t> level_edges_;          ///< those that can lie in a horizontal plane
   std::vector<std::pair<std::uint32_t, std::uint32_t>> loops_;
   std::vector<Chord> chords_;
   std::vector<std::uint32_t> bucket_chords_;  ///< chords by v, bucket after bucket

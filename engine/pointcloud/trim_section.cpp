@@ -55,11 +55,11 @@ std::optional<double> find_root(const TrimRegion& region, std::uint32_t edge, co
 class ArcTrimmer {
  public:
   ArcTrimmer(Section& section, const FrontPatch& patch, double z)
-      : section_(section), patch_(patch), region_(*patch.trim()), z_(z) {
-    for (std::uint32_t e = 0; e < region_.edges().size(); ++e) {
-      if (region_.is_level(e, z)) level_edges_.push_back(e);
-    }
-  }
+      : section_(section),
+        patch_(patch),
+        region_(*patch.trim()),
+        z_(z),
+        level_edges_(region_.edges_in_plane(z)) {}
 
   void trim(const SectionArc& arc, const std::vector<SectionNode>& nodes) {
     std::vector<Vector2> line;

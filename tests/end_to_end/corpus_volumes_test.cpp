@@ -2,10 +2,8 @@
 // volume.
 
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,6 +15,7 @@
 #include "engine/slicing_planes.h"
 #include "gcode/region/layer_region.h"
 #include "tests/support/corpus.h"
+#include "tests/support/manifest.h"
 
 namespace {
 
@@ -28,20 +27,10 @@ constexpr double kEpsilon = 0.05;
 /// The volume column of the corpus manifest, mm^3, by file; files whose boundary does not close have none.
 std::map<std::string, double> manifest_volumes() {
   std::map<std::string, double> volumes;
-  std::ifstream manifest(tests::corpus_file("MANIFEST.md"));
-  for (std::string line; std::getline(manifest, line);) {
-    std::vector<std::string> cells;
-    std::stringstream row(line);
-    for (std::string cell; std::getline(row, cell, '|');) {
-      const auto first = cell.find_first_not_of(' ');
-      const auto last = cell.find_last_not_of(' ');
-      cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-    }
-    constexpr std::size_t kFile = 1;
-    constexpr std::size_t kVolume = 8;
-    if (cells.size() > kVolume && cells[kFile].find(".ig") != std::string::npos && cells[kVolume] != "-") {
-      volumes[cells[kFile]] = std::stod(cells[kVolume]);
-    }
+  constexpr std::size_t kFile = 1;
+  constexpr std::size_t kVolume = 8;
+  for (const tests::ManifestRow& cells : tests::manifest_rows({".ig"})) {
+    if (cells[kVolume] != "-") volumes[cells[kFile]] = std::stod(cells[kVolume]);
   }
   return volumes;
 }

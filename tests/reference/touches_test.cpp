@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/reference/as_engine_layer.h"
+#include "tests/reference/contour/contour_curve.h"
 #include "tests/reference/reference_slicer.h"
 #include "tests/support/analytic_models.h"
 #include "tests/support/contour_measure.h"
@@ -47,7 +48,7 @@ Kinds kinds_of(const Layer& layer) {
 }
 
 double loop_area(const engine::PlanarCurve& curve, double epsilon) {
-  return std::abs(engine::signed_area(engine::flatten_closed(curve, epsilon / 100.0)));
+  return std::abs(engine::signed_area(reference::flatten_closed(curve, epsilon / 100.0)));
 }
 
 /// A cell stands for its lower left corner: what lies in the cell is at most a diagonal away.
@@ -115,7 +116,7 @@ TEST_CASE("a flat torus touches the planes in a closed curve", "[touch]") {
       const Layer layer = cut(solid.model, z, epsilon);
       REQUIRE(kinds_of(layer) == Kinds{1, 0, 0, 0});
       CHECK(layer.closed.front().touch);
-      const Loop loop = engine::flatten_closed(layer.closed.front().curve, epsilon / 100.0);
+      const Loop loop = reference::flatten_closed(layer.closed.front().curve, epsilon / 100.0);
       for (const Vector2& point : loop) {
         const double radius = (point - place.head<2>()).norm();
         CHECK(radius == Approx(4.0).margin(diagonal(epsilon) + epsilon));

@@ -201,20 +201,7 @@ TEST_CASE("serial: unplugged in the middle of a print, it ends with that reason"
   const PretendSerial serial("ttyPRETEND0", device.path());
   ServedPrinter printer(device, fast_printer());
   const auto host = open_port(serial.path());
-  PrintJob job(source_of(sample_print(6000)), quick_start());
-  std::atomic<bool> printing = false;
-  PrintCallbacks callbacks;
-  callbacks.on_event = [&](const Event& event) {
-    if (const auto* sent = std::get_if<LineSent>(&event)) printing = printing || sent->line.number > 100;
-  };
-  std::thread unplug([&] {
-    while (!printing) std::this_thread::sleep_for(1ms);
-    printer.stop();
-    device.close();
-  });
-  const std::atomic<bool> cancel = false;
-  const PrintResult result = run_print(*host, job, callbacks, cancel);
-  unplug.join();
+  const PrintResult result = print_until_unplugged(*host, printer, device);
   INFO(result.failure);
   CHECK(result.outcome == JobPhase::kFailed);
   CHECK(result.failure.find(serial.path()) == 0);

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <thread>
+#include <variant>
 
+#include "tests/transport/sample_print.h"
 #include "transport/emulator/emulator_server.h"
 #include "transport/session/print_job.h"
+#include "transport/session/runner.h"
 
 namespace lamina::tests {
 
@@ -42,6 +46,27 @@ inline transport::PrintJobOptions quick_start() {
   transport::PrintJobOptions options;
   options.engine.start_wait = std::chrono::milliseconds(200);
   return options;
+}
+
+/// Prints 6000 chords and lets the device go once 100 lines are sent.
+inline transport::PrintResult print_until_unplugged(transport::Port& host, ServedPrinter& printer,
+                                                    transport::Port& device) {
+  transport::PrintJob job(source_of(sample_print(6000)), quick_start());
+  std::atomic<bool> printing = false;
+  transport::PrintCallbacks callbacks;
+  callbacks.on_event = [&](const transport::Event& event) {
+    if (const auto* sent = std::get_if<transport::LineSent>(&event))
+      printing = printing || sent->line.number > 100;
+  };
+  std::thread unplug([&] {
+    while (!printing) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    printer.stop();
+    device.close();
+  });
+  const std::atomic<bool> cancel = false;
+  transport::PrintResult result = run_print(host, job, callbacks, cancel);
+  unplug.join();
+  return result;
 }
 
 }  // namespace lamina::tests

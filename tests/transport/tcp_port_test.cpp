@@ -209,20 +209,7 @@ TEST_CASE("tcp: a connection that breaks ends the print with that reason") {
   TcpHost device(kHere);
   ServedPrinter printer(device, fast_printer());
   const auto host = open_port(device.name());
-  PrintJob job(source_of(sample_print(6000)), quick_start());
-  std::atomic<bool> printing = false;
-  PrintCallbacks callbacks;
-  callbacks.on_event = [&](const Event& event) {
-    if (const auto* sent = std::get_if<LineSent>(&event)) printing = printing || sent->line.number > 100;
-  };
-  std::thread unplug([&] {
-    while (!printing) std::this_thread::sleep_for(1ms);
-    printer.stop();
-    device.close();
-  });
-  const std::atomic<bool> cancel = false;
-  const PrintResult result = run_print(*host, job, callbacks, cancel);
-  unplug.join();
+  const PrintResult result = print_until_unplugged(*host, printer, device);
   CHECK(result.outcome == JobPhase::kFailed);
   INFO(result.failure);
   CHECK(result.failure.find("tcp://127.0.0.1:") == 0);

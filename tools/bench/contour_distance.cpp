@@ -13,19 +13,6 @@ double distance_to_segment(const engine::Vector2& place, const engine::Vector2& 
   return (from + t * along - place).norm();
 }
 
-bool inside(const engine::Loop& loop, const engine::Vector2& place) {
-  bool result = false;
-  for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
-    const engine::Vector2& a = loop[i];
-    const engine::Vector2& b = loop[j];
-    if ((a.y() > place.y()) != (b.y() > place.y()) &&
-        place.x() < (b.x() - a.x()) * (place.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-      result = !result;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 std::vector<const engine::PieceCurve*> curves_of(const engine::Layer& layer) {
@@ -71,9 +58,9 @@ double ContourDistance::distance(const engine::Vector2& place, double enough) co
 
 bool ContourDistance::in_face(const engine::Vector2& place) const {
   return std::any_of(faces_.begin(), faces_.end(), [&](const engine::Polygon& face) {
-    return inside(face.outer, place) &&
+    return engine::contains(face.outer, place) &&
            std::none_of(face.holes.begin(), face.holes.end(),
-                        [&](const engine::Loop& hole) { return inside(hole, place); });
+                        [&](const engine::Loop& hole) { return engine::contains(hole, place); });
   });
 }
 

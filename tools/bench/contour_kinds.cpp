@@ -7,25 +7,12 @@
 namespace lamina::tools {
 namespace {
 
-bool encloses(const engine::Loop& loop, const engine::Vector2& place) {
-  bool inside = false;
-  for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
-    const engine::Vector2& a = loop[i];
-    const engine::Vector2& b = loop[j];
-    if ((a.y() > place.y()) != (b.y() > place.y()) &&
-        place.x() < (b.x() - a.x()) * (place.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
-
 std::vector<std::size_t> nesting_depths(const std::vector<engine::Loop>& loops) {
   std::vector<std::size_t> depths;
   for (const engine::Loop& loop : loops) {
     depths.push_back(
         static_cast<std::size_t>(std::count_if(loops.begin(), loops.end(), [&](const engine::Loop& around) {
-          return &around != &loop && encloses(around, loop.front());
+          return &around != &loop && engine::contains(around, loop.front());
         })));
   }
   std::sort(depths.begin(), depths.end());

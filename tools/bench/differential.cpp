@@ -22,6 +22,7 @@
 #include "gcode/region/polygon_clipping.h"
 #include "tests/reference/as_engine_layer.h"
 #include "tests/reference/reference_slicer.h"
+#include "tests/support/contour_measure.h"
 #include "tools/bench/contour_kinds.h"
 #include "tools/bench/measurement.h"
 #include "tools/bench/random_solids.h"
@@ -69,36 +70,6 @@ struct Tally {
     areas += other.areas;
   }
 };
-
-double parity_area(const std::vector<engine::Loop>& loops) {
-  // Depth decides the sign; loops of one layer do not cross.
-  double sum = 0.0;
-  for (const engine::Loop& loop : loops) {
-    std::size_t depth = 0;
-    for (const engine::Loop& around : loops) {
-      if (&around == &loop) continue;
-      bool inside = false;
-      const engine::Vector2& place = loop.front();
-      for (std::size_t i = 0, j = around.size() - 1; i < around.size(); j = i++) {
-        const engine::Vector2& a = around[i];
-        const engine::Vector2& b = around[j];
-        if ((a.y() > place.y()) != (b.y() > place.y()) &&
-            place.x() < (b.x() - a.x()) * (place.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-          inside = !inside;
-        }
-      }
-      depth += inside ? 1 : 0;
-    }
-    sum += (depth % 2 == 0 ? 1.0 : -1.0) * std::abs(engine::signed_area(loop));
-  }
-  return sum;
-}
-
-double perimeter_of(const std::vector<engine::Loop>& loops) {
-  double sum = 0.0;
-  for (const engine::Loop& loop : loops) sum += engine::perimeter(loop);
-  return sum;
-}
 
 /// Whether a loop is smaller than `distance`, or two places that are far apart along the loops come nearer.
 bool comes_near(const std::vector<engine::Loop>& loops, double distance) {
@@ -185,9 +156,9 @@ Tally compare(const tools::RandomSolid& solid, int planes_a_model, double epsilo
     if (ours == theirs) {
       ++tally.equal;
       // Half a cell along the contour, up to a whole one where the surface leans on the plane.
-      const double length = perimeter_of(loops);
-      const double area = parity_area(loops);
-      const double difference = area - parity_area(tools::closed_loops(other, kFlattened * epsilon));
+      const double length = tests::perimeter_of(loops);
+      const double area = tests::parity_area(loops);
+      const double difference = area - tests::parity_area(tools::closed_loops(other, kFlattened * epsilon));
       if (std::abs(difference) > epsilon * length + 4.0 * epsilon * epsilon) {
         const auto regions = tools::true_regions(solid.parts, z, kSpacings[1]);
         const double truth = regions ? engine::area(tools::true_union(*regions, kNarrowest)) : 0.0;

@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/geometry/piece_curve.h"
+
 namespace lamina::tests {
 namespace {
 
@@ -120,13 +122,6 @@ TEST_CASE("a straight curve flattens to its ends", "[planar-curve]") {
   CHECK(engine::flatten(line, 1e-6).size() == 2);
 }
 
-TEST_CASE("a closed curve's loop leaves out the repeated point", "[planar-curve]") {
-  const PlanarCurve square = engine::polyline_curve({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 0}});
-  const engine::Loop loop = engine::flatten_closed(square, 0.01);
-  REQUIRE(loop.size() == 4);
-  CHECK(engine::signed_area(loop) == Approx(4.0));
-}
-
 TEST_CASE("even samples are evenly spaced along the arc", "[planar-curve]") {
   std::mt19937 random(kSeed);
   CAPTURE(kSeed);
@@ -135,7 +130,7 @@ TEST_CASE("even samples are evenly spaced along the arc", "[planar-curve]") {
     const Polyline dense = dense_points(curve, 200000);
     const double total = engine::length(dense);
     const double step = 0.3;
-    const Polyline samples = engine::sample_evenly(curve, step);
+    const Polyline samples = engine::sample_evenly(engine::PieceCurve{{curve}, false}, step);
     CAPTURE(degree, total);
     const double intervals = std::ceil(total / step);
     REQUIRE(static_cast<double>(samples.size()) == intervals + 1.0);
@@ -152,18 +147,6 @@ TEST_CASE("even samples are evenly spaced along the arc", "[planar-curve]") {
     }
     CHECK(next + 1 == samples.size());
   }
-}
-
-TEST_CASE("a polyline's curve runs through its points by chord length", "[planar-curve]") {
-  const Polyline points{{0, 0}, {3, 0}, {3, 4}, {0, 4}};
-  const PlanarCurve curve = engine::polyline_curve(points);
-  CHECK(curve.degree == 1);
-  CHECK((engine::evaluate(curve, 0.3) - points[1]).norm() < 1e-12);
-  CHECK((engine::evaluate(curve, 0.7) - points[2]).norm() < 1e-12);
-  CHECK((engine::evaluate(curve, 0.5) - Vector2(3, 2)).norm() < 1e-12);
-  const engine::Box2 box = engine::control_box(curve);
-  CHECK(box.min() == Vector2(0, 0));
-  CHECK(box.max() == Vector2(3, 4));
 }
 
 }  // namespace lamina::tests

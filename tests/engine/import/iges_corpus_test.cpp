@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,14 +11,15 @@
 #include "engine/import/read_model.h"
 #include "engine/nurbs/curve.h"
 #include "tests/support/corpus.h"
+#include "tests/support/manifest.h"
 
 using namespace lamina::engine;
 using namespace lamina::tests;
 
 namespace {
 
-/// One row of the corpus's table.
-struct ManifestRow {
+/// What is asked of one model.
+struct Expected {
   std::string file;
   Vector3 low = Vector3::Zero();
   Vector3 high = Vector3::Zero();
@@ -29,27 +29,13 @@ struct ManifestRow {
   double area = 0.0;
 };
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, '|');) {
-    const auto first = cell.find_first_not_of(' ');
-    cells.push_back(first == std::string::npos ? ""
-                                               : cell.substr(first, cell.find_last_not_of(' ') - first + 1));
-  }
-  return cells;
-}
-
 /// Rows of IGES files whose surfaces are all untrimmed.
-std::vector<ManifestRow> readable_rows() {
+std::vector<Expected> readable_rows() {
   const std::string readable[] = {"100", "102", "104", "110", "112", "114", "116",
                                   "118", "120", "122", "124", "126", "128"};
-  std::vector<ManifestRow> rows;
-  std::ifstream manifest(corpus_file("MANIFEST.md"));
-  for (std::string line; std::getline(manifest, line);) {
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() < 10 || cells[1].find(".ig") == std::string::npos) continue;
-    ManifestRow row;
+  std::vector<Expected> rows;
+  for (const ManifestRow& cells : manifest_rows({".ig"})) {
+    Expected row;
     row.file = cells[1];
     row.entities = cells[5];
     bool is_readable = true;
@@ -220,9 +206,9 @@ TEST_CASE("corpus: surfaces, boxes, volumes and areas are those of the manifest"
     WARN("the model corpus is missing: skipped");
     return;
   }
-  const std::vector<ManifestRow> rows = readable_rows();
+  const std::vector<Expected> rows = readable_rows();
   REQUIRE(rows.size() >= 30);
-  for (const ManifestRow& row : rows) {
+  for (const Expected& row : rows) {
     INFO(row.file);
     const ImportResult result = read_model(corpus_file(row.file));
     const Model& model = result.model;

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,6 +13,7 @@
 #include "engine/import/trim/parameter_loop.h"
 #include "tests/engine/import/reading.h"
 #include "tests/support/corpus.h"
+#include "tests/support/manifest.h"
 
 using namespace lamina::engine;
 using namespace lamina::tests;
@@ -85,19 +84,13 @@ TEST_CASE("corpus: trimmed IGES files have the areas and the faces of the manife
     WARN("the model corpus is missing: skipped");
     return;
   }
-  std::ifstream manifest(corpus_file("MANIFEST.md"));
   std::size_t files = 0;
-  for (std::string line; std::getline(manifest, line);) {
-    std::vector<std::string> cells;
-    std::istringstream stream(line);
-    for (std::string cell; std::getline(stream, cell, '|');) cells.push_back(cell);
-    if (cells.size() < 10 || cells[1].find(".ig") == std::string::npos) continue;
+  for (const ManifestRow& cells : manifest_rows({".ig"})) {
     const bool is_trimmed =
         cells[5].find("14") != std::string::npos || cells[5].find("510:") != std::string::npos ||
         cells[5].find("408:") != std::string::npos || cells[5].find("108:") != std::string::npos;
     if (!is_trimmed) continue;
-    std::string file;
-    std::istringstream(cells[1]) >> file;
+    const std::string& file = cells[1];
     INFO(file);
     const ImportResult result = read_model(corpus_file(file));
     std::size_t faces = std::stoul(cells[6]);

@@ -1,4 +1,3 @@
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "engine/import/step/read_step.h"
 #include "engine/model_bounds.h"
 #include "tests/support/corpus.h"
+#include "tests/support/manifest.h"
 
 using namespace lamina::engine;
 using namespace lamina::tests;
@@ -46,17 +46,9 @@ TEST_CASE("corpus: STEP files have the faces and areas of the manifest, assembli
     WARN("the model corpus or OpenCASCADE is missing: skipped");
     return;
   }
-  std::ifstream manifest(corpus_file("MANIFEST.md"));
   std::size_t files = 0;
-  for (std::string line; std::getline(manifest, line);) {
-    std::vector<std::string> cells;
-    std::istringstream stream(line);
-    for (std::string cell; std::getline(stream, cell, '|');) cells.push_back(cell);
-    if (cells.size() < 10 ||
-        (cells[1].find(".stp") == std::string::npos && cells[1].find(".step") == std::string::npos))
-      continue;
-    std::string file;
-    std::istringstream(cells[1]) >> file;
+  for (const ManifestRow& cells : manifest_rows({".stp", ".step"})) {
+    const std::string& file = cells[1];
     INFO(file);
     const ImportResult result = read_model(corpus_file(file));
     CHECK(result.report.format == "STEP");

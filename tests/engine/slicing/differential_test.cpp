@@ -15,6 +15,7 @@
 #include "tests/reference/reference_slicer.h"
 #include "tests/support/contour_measure.h"
 #include "tests/support/corpus.h"
+#include "tools/bench/contour_kinds.h"
 
 namespace lamina::tests {
 namespace {
@@ -98,8 +99,8 @@ void compare(const Model& model, Boundary boundary, const std::vector<engine::Sl
     ++result.layers;
     const std::vector<Loop> fast_loops = closed_loops(*fast, 0.05 * epsilon);
     const std::vector<Loop> slow_loops = closed_loops(slow, 0.05 * epsilon);
-    const Kinds f = kinds_of(*fast, 0.05 * epsilon);
-    const Kinds s = kinds_of(slow, 0.05 * epsilon);
+    const tools::ContourKinds f = tools::kinds_of(*fast, 0.05 * epsilon);
+    const tools::ContourKinds s = tools::kinds_of(slow, 0.05 * epsilon);
     if (boundary == Boundary::kClosed) CHECK(f.open == 0);
     if (f == s) {
       ++result.equal;
@@ -119,11 +120,11 @@ void compare(const Model& model, Boundary boundary, const std::vector<engine::Sl
       ++result.slivers;
     } else {
       ++result.unexplained;
-      WARN(model.name << " at z = " << fast->plane.z << ": sparse " << f.closed << " closed, " << f.touching
-                      << " touching, " << f.open << " open, " << f.planar << " planar, " << f.points
-                      << " points; dense " << s.closed << ", " << s.touching << ", " << s.open << ", "
-                      << s.planar << ", " << s.points << ", areas " << parity_area(fast_loops) << " and "
-                      << parity_area(slow_loops));
+      WARN(model.name << " at z = " << fast->plane.z << ": sparse " << f.depths.size() << " closed, "
+                      << f.touching << " touching, " << f.open << " open, " << f.planar << " planar, "
+                      << f.points << " points; dense " << s.depths.size() << ", " << s.touching << ", "
+                      << s.open << ", " << s.planar << ", " << s.points << ", areas "
+                      << parity_area(fast_loops) << " and " << parity_area(slow_loops));
     }
   }
 }

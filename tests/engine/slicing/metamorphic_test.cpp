@@ -16,6 +16,7 @@
 #include "tests/support/analytic_models.h"
 #include "tests/support/contour_measure.h"
 #include "tests/support/corpus.h"
+#include "tools/bench/contour_kinds.h"
 
 namespace lamina::tests {
 namespace {
@@ -82,7 +83,7 @@ void check_same(const Slice& slice, const Slice& expected, const Eigen::Affine2d
   const double scale = std::max(1.0, std::sqrt(std::abs(map.linear().determinant())));
   CHECK(greatest_difference(loops_of(slice.chains), mapped(loops_of(expected.chains), map)) <
         kAllowed * scale);
-  CHECK(kinds_of(slice.layer, kFlattened) == kinds_of(expected.layer, kFlattened));
+  CHECK(tools::kinds_of(slice.layer, kFlattened) == tools::kinds_of(expected.layer, kFlattened));
   CHECK(greatest_difference(closed_loops(slice.layer, kFlattened),
                             mapped(closed_loops(expected.layer, kFlattened), map)) < kAllowedCurves * scale);
 }

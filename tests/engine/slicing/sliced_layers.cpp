@@ -64,41 +64,4 @@ double greatest_difference(const std::vector<Loop>& a, const std::vector<Loop>& 
   return greatest;
 }
 
-Kinds kinds_of(const engine::Layer& layer, double tolerance) {
-  Kinds kinds;
-  std::vector<Loop> loops;
-  for (const engine::ClosedContour& contour : layer.closed) {
-    if (contour.touch) {
-      ++kinds.touching;
-    } else {
-      loops.push_back(engine::flatten(contour.curve, tolerance));
-    }
-  }
-  for (const engine::OpenContour& contour : layer.open) ++(contour.touch ? kinds.touching : kinds.open);
-  kinds.closed = loops.size();
-  kinds.planar = layer.planar.size();
-  for (const engine::PlanarContour& contour : layer.planar) kinds.holes += contour.inner.size();
-  kinds.points = layer.points.size();
-  for (const Loop& loop : loops) {
-    std::size_t depth = 0;
-    const Vector2& p = loop.front();
-    for (const Loop& around : loops) {
-      if (&around == &loop) continue;
-      bool inside = false;
-      for (std::size_t i = 0, j = around.size() - 1; i < around.size(); j = i++) {
-        const Vector2& a = around[i];
-        const Vector2& b = around[j];
-        if ((a.y() > p.y()) != (b.y() > p.y()) &&
-            p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-          inside = !inside;
-        }
-      }
-      depth += inside ? 1 : 0;
-    }
-    kinds.depths.push_back(depth);
-  }
-  std::sort(kinds.depths.begin(), kinds.depths.end());
-  return kinds;
-}
-
 }  // namespace lamina::tests

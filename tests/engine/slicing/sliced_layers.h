@@ -31,19 +31,4 @@ double distance_to_loops(const engine::Vector2& point, const std::vector<engine:
 /// Greatest distance of any node of one set of loops from the other set, both ways, mm.
 double greatest_difference(const std::vector<engine::Loop>& a, const std::vector<engine::Loop>& b);
 
-/// How many contours of each kind, and how deep they nest.
-struct Kinds {
-  std::size_t closed = 0;
-  std::size_t touching = 0;  ///< closed or open touch curves
-  std::size_t open = 0;
-  std::size_t planar = 0;
-  std::size_t holes = 0;  ///< of planar contours
-  std::size_t points = 0;
-  std::vector<std::size_t> depths;  ///< of the closed contours, ascending
-
-  bool operator==(const Kinds&) const = default;
-};
-
-Kinds kinds_of(const engine::Layer& layer, double tolerance);
-
 }  // namespace lamina::tests

@@ -13,6 +13,7 @@
 #include "tests/support/analytic_models.h"
 #include "tests/support/contour_measure.h"
 #include "tests/support/trimmed_models.h"
+#include "tools/bench/contour_kinds.h"
 
 namespace lamina::tests {
 namespace {
@@ -79,7 +80,7 @@ TEST_CASE("posed at random: trimmed and untrimmed have the same sections", "[sli
     CAPTURE(k, z);
     const Layer expected = layer_at(a, z);
     const Layer layer = layer_at(b, z);
-    CHECK(kinds_of(layer, 0.05 * kEpsilon) == kinds_of(expected, 0.05 * kEpsilon));
+    CHECK(tools::kinds_of(layer, 0.05 * kEpsilon) == tools::kinds_of(expected, 0.05 * kEpsilon));
     const auto loops = closed_loops(layer, 0.01 * kEpsilon);
     const auto expected_loops = closed_loops(expected, 0.01 * kEpsilon);
     CHECK(parity_area(loops) == Approx(parity_area(expected_loops)).epsilon(1e-4));

@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
+#include "tests/reference/contour/contour_curve.h"
+
 namespace lamina::reference {
 namespace {
 

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/reference/contour/contour_curve.h"
 #include "tests/reference/grid/grid_text.h"
 
 namespace lamina::tests {
@@ -31,7 +32,7 @@ ComponentContours contours_of(const GridText& rows, bool touch, bool in_plane) {
 }
 
 double enclosed(const engine::PlanarCurve& curve) {
-  return std::abs(engine::signed_area(engine::flatten_closed(curve, 0.01)));
+  return std::abs(engine::signed_area(reference::flatten_closed(curve, 0.01)));
 }
 
 }  // namespace
