@@ -10,7 +10,6 @@
 #include "engine/pointcloud/facet_section.h"
 #include "engine/pointcloud/scan_section.h"
 #include "engine/pointcloud/trim_edges.h"
-#include "engine/pointcloud/trim_section.h"
 
 namespace lamina::engine {
 namespace {
@@ -43,7 +42,7 @@ LayerChains LayerMaker::chains(const FrontState& front, double z, LayerReport& r
   for (const auto& patch : front.patches) {
     const SectionMark mark = mark_of(section_);
     patch_section_.cut(*patch, z, section_);
-    if (patch->trim() != nullptr) trim_section(section_, mark, *patch, z);
+    if (patch->trim() != nullptr) section_trimmer_.trim(section_, mark, *patch, z);
   }
   for (const auto& region : front.regions) {
     add_trim_edges(section_, *region, z, options_.chord_part * options_.epsilon);

@@ -7,6 +7,7 @@
 #include "engine/layer.h"
 #include "engine/pointcloud/front_state.h"
 #include "engine/pointcloud/patch_section.h"
+#include "engine/pointcloud/trim_section.h"
 #include "engine/slice_options.h"
 #include "engine/solid_numbers.h"
 
@@ -32,6 +33,7 @@ class LayerMaker {
   SliceOptions options_;
   SolidNumbers solids_;
   PatchSection patch_section_;
+  SectionTrimmer section_trimmer_;
   MeetingFinder meetings_;
   Section section_;
 };

@@ -26,7 +26,7 @@ void extend_by_trimmed(Box3& known, const Surface& surface) {
   const auto visit = [&](auto&& self, const PlacedPatch& placed, int depth) -> void {
     const Box3 reached(known.min() - margin, known.max() + margin);
     if (reached.contains(control_box(placed.patch.net))) return;
-    const TrimPlace place = region.place_of(placed.low, placed.high);
+    const TrimPlace place = region.chords().place_of(placed.low, placed.high);
     if (place == TrimPlace::kOutside) return;
     if (place == TrimPlace::kInside) {
       known = surface_bounds({placed.patch}, kTolerance, known);

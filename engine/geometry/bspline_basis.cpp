@@ -60,6 +60,7 @@ std::array<BasisRow, 3> basis_derivatives(const Knots& knots, int degree, std::s
   // NURBS Book, equation 2.7): they all come by on the way up.
   std::array<BasisRow, 3> rows{BasisRow(degree), BasisRow(degree), BasisRow(degree)};
   auto& [values, first, second] = rows;
+  for (std::size_t k = 0; k < values.size(); ++k) first[k] = second[k] = 0.0;
   values[0] = 1.0;
   for (int low = 0; low < degree; ++low) {
     if (low == degree - 2) {

@@ -18,13 +18,12 @@ std::size_t find_span(const Knots& knots, int degree, double t);
 /// No curve or surface has a higher degree; what readers accept stays far below.
 inline constexpr int kHighestDegree = 63;
 
-/// One value for each basis function that does not vanish on a span, in storage of its own: evaluation takes
-/// no memory from the heap.
+/// One value for each basis function that does not vanish on a span, at first undefined, in storage of its
+/// own: evaluation takes no memory from the heap.
 class BasisRow {
  public:
   explicit BasisRow(int degree) : size_(static_cast<std::size_t>(degree) + 1) {
     assert(0 <= degree && degree <= kHighestDegree);
-    for (double& value : *this) value = 0.0;
   }
 
   std::size_t size() const { return size_; }

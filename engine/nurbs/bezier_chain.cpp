@@ -1,5 +1,7 @@
 #include "engine/nurbs/bezier_chain.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 
 #include "engine/geometry/bspline_basis.h"
@@ -12,7 +14,8 @@ namespace {
 Vector4 blossom(const NurbsCurve& curve, std::size_t span, double first, double last, std::size_t k) {
   const auto p = static_cast<std::size_t>(curve.degree);
   const auto begin = curve.control_points.begin() + static_cast<std::ptrdiff_t>(span - p);
-  std::vector<Vector4> d(begin, begin + curve.degree + 1);
+  std::array<Vector4, kHighestDegree + 1> d;
+  std::copy_n(begin, p + 1, d.begin());
   for (std::size_t level = 1; level <= p; ++level) {
     const double argument = level <= p - k ? first : last;
     for (std::size_t j = p; j >= level; --j) {
@@ -23,6 +26,38 @@ Vector4 blossom(const NurbsCurve& curve, std::size_t span, double first, double 
     }
   }
   return d[p];
+}
+
+/// A segment's control points, and where on it a parameter lies.
+struct Place {
+  const Vector4* points;
+  double x;       ///< 0 to 1 on the segment
+  double length;  ///< of the segment's parameter interval
+};
+
+Place place_of(const BezierChain& chain, double t) {
+  const auto upper = std::upper_bound(chain.breaks.begin() + 1, chain.breaks.end() - 1, t);
+  const auto segment = static_cast<std::size_t>(upper - chain.breaks.begin()) - 1;
+  const double first = chain.breaks[segment];
+  const double length = chain.breaks[segment + 1] - first;
+  return {&chain.control_points[segment * static_cast<std::size_t>(chain.degree)], (t - first) / length,
+          length};
+}
+
+/// Sum of Bernstein polynomials times points by nested multiplication (Farin, Curves and Surfaces for CAGD,
+/// section 5.1).
+template <typename PointAt>
+Vector4 blend(std::size_t degree, double x, PointAt point_at) {
+  const double y = 1.0 - x;
+  double power = 1.0;
+  double choose = 1.0;
+  Vector4 sum = point_at(0);
+  for (std::size_t k = 1; k <= degree; ++k) {
+    power *= x;
+    choose *= static_cast<double>(degree + 1 - k) / static_cast<double>(k);
+    sum = y * sum + choose * power * point_at(k);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -45,6 +80,23 @@ BezierChain bezier_chain(const NurbsCurve& curve, const std::vector<double>& bre
 
 BezierChain bezier_chain(const NurbsCurve& curve) {
   return bezier_chain(curve, break_points(curve.knots, curve.degree));
+}
+
+Vector3 evaluate(const BezierChain& chain, double t) {
+  const Place place = place_of(chain, t);
+  const auto degree = static_cast<std::size_t>(chain.degree);
+  return cartesian(blend(degree, place.x, [&](std::size_t k) { return place.points[k]; }));
+}
+
+CurveDerivative evaluate_derivative(const BezierChain& chain, double t) {
+  const Place place = place_of(chain, t);
+  const auto degree = static_cast<std::size_t>(chain.degree);
+  const Vector4 sum = blend(degree, place.x, [&](std::size_t k) { return place.points[k]; });
+  const Vector4 change = blend(degree - 1, place.x,
+                               [&](std::size_t k) { return Vector4(place.points[k + 1] - place.points[k]); });
+  const Vector3 point = cartesian(sum);
+  const double factor = chain.degree / (place.length * sum.w());
+  return {point, factor * (change.head<3>() - change.w() * point)};
 }
 
 NurbsCurve to_curve(const BezierChain& chain) {

@@ -23,6 +23,13 @@ BezierChain bezier_chain(const NurbsCurve& curve, const std::vector<double>& bre
 /// The curve cut at its own knots.
 BezierChain bezier_chain(const NurbsCurve& curve);
 
+/// Point at parameter t of the chain's domain; a parameter beyond it continues the segment at that end.
+/// Linear in the degree.
+Vector3 evaluate(const BezierChain& chain, double t);
+
+/// The same with the first derivative.
+CurveDerivative evaluate_derivative(const BezierChain& chain, double t);
+
 /// The chain as one clamped curve; inner knots have the multiplicity of the degree.
 NurbsCurve to_curve(const BezierChain& chain);
 

@@ -67,6 +67,8 @@ void ArcNodes::bisect(const LineCrossing& solved, double from, const CrossingPoi
   }
   LineCrossing line = solved;
   line.at = 0.5 * (from + to);
+  // The middle of the cubic with these ends and slopes.
+  line.guess = 0.5 * (start.parameter + end.parameter) + 0.125 * (to - from) * (start.slope - end.slope);
   const CrossingPoint middle = crossing_on_line(patch_, z_, line);
   bisect(solved, from, start, line.at, middle, forced - 1, depth + 1);
   section_.nodes.push_back(middle.node);

@@ -8,6 +8,8 @@ namespace {
 
 constexpr int kMostNewtonSteps = 60;
 constexpr double kParameterRounding = 4e-16;
+/// Sine of the slope below which a surface has no section.
+constexpr double kLevel = 1e-9;
 
 /// A patch blended along the direction held: a curve along the other one, and its derivative across.
 struct Blend {
@@ -38,9 +40,37 @@ struct Blend {
   }
 };
 
+/// A point of such a curve, with the derivatives along it and across, both times the weight.
+struct BlendPoint {
+  double weight;
+  Vector3 position;
+  Vector3 along;
+  Vector3 across;
+
+  BlendPoint(const Blend& blend, double parameter) {
+    const BernsteinPair basis(blend.degree, parameter);
+    Vector4 point = basis.value[0] * blend.value[0];
+    Vector4 change = basis.derivative[0] * blend.value[0];
+    Vector4 change_across = basis.value[0] * blend.across[0];
+    for (int k = 1; k <= blend.degree; ++k) {
+      point += basis.value[k] * blend.value[k];
+      change += basis.derivative[k] * blend.value[k];
+      change_across += basis.value[k] * blend.across[k];
+    }
+    weight = point.w();
+    position = point.head<3>() / weight;
+    // The quotient rule (The NURBS Book, equation 4.8).
+    along = change.head<3>() - change.w() * position;
+    across = change_across.head<3>() - change_across.w() * position;
+  }
+};
+
 /// Root of a Bernstein polynomial between low and high, where it has the signs that `rising` says.
-double bracketed_root(const double* coefficients, int degree, double low, double high, bool rising) {
-  double t = 0.5 * (low + high);
+double bracketed_root(const double* coefficients, int degree, const LineCrossing& line) {
+  double low = line.low;
+  double high = line.high;
+  double t = line.guess > low && line.guess < high ? line.guess : 0.5 * (low + high);
+  double last_step = 0.0;  // of Newton's; 0: there was none
   for (int step = 0; step < kMostNewtonSteps; ++step) {
     const BernsteinPair basis(degree, t);
     double value = 0.0;
@@ -50,10 +80,16 @@ double bracketed_root(const double* coefficients, int degree, double low, double
       slope += basis.derivative[k] * coefficients[k];
     }
     if (value == 0.0) return t;
-    ((value > 0.0) == rising ? high : low) = t;
+    ((value > 0.0) == line.rising ? high : low) = t;
     double next = t - value / slope;
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (std::abs(next - t) <= kParameterRounding) return next;
+    const bool is_newton = next >= low && next <= high;
+    if (!is_newton) next = 0.5 * (low + high);
+    const double size = std::abs(next - t);
+    // Newton steps that shrink from `last_step` to `size` by squaring have size^3 / last_step^2 to come.
+    if (size <= kParameterRounding ||
+        (is_newton && size < last_step && size * size * size <= kParameterRounding * last_step * last_step))
+      return next;
+    last_step = is_newton ? size : 0.0;
     t = next;
   }
   return t;
@@ -90,51 +126,37 @@ CrossingPoint crossing_on_line(const FrontPatch& patch, double z, const LineCros
   double heights[kHighestPatchDegree + 1];
   for (int k = 0; k <= blend.degree; ++k) heights[k] = blend.value[k].z() - z * blend.value[k].w();
   CrossingPoint result;
-  result.parameter = bracketed_root(heights, blend.degree, line.low, line.high, line.rising);
+  result.parameter = bracketed_root(heights, blend.degree, line);
 
-  const BernsteinPair basis(blend.degree, result.parameter);
-  Vector4 point = basis.value[0] * blend.value[0];
-  Vector4 along = basis.derivative[0] * blend.value[0];
-  Vector4 across = basis.value[0] * blend.across[0];
-  for (int k = 1; k <= blend.degree; ++k) {
-    point += basis.value[k] * blend.value[k];
-    along += basis.derivative[k] * blend.value[k];
-    across += basis.value[k] * blend.across[k];
-  }
+  const BlendPoint at(blend, result.parameter);
   result.node.parameters = parameters_on(line.held, line.at, result.parameter);
-  const double w = point.w();
-  result.node.position = point.head<2>() / w;
-  // Quotient rule; the common factor 1 / w does not turn the tangent.
-  const Vector3 cartesian = point.head<3>() / w;
-  const Vector3 d_along = along.head<3>() - along.w() * cartesian;
-  const Vector3 d_across = across.head<3>() - across.w() * cartesian;
-  const Vector3& du = line.held == Direction::kU ? d_across : d_along;
-  const Vector3& dv = line.held == Direction::kU ? d_along : d_across;
-  // e_z x (du x dv): the section's direction, the outward normal on its right.
-  const Vector2 tangent = du.head<2>() * dv.z() - dv.head<2>() * du.z();
-  const double length = tangent.norm();
-  const double scale = du.norm() * dv.norm();
-  result.node.tangent = length > 1e-9 * scale ? Vector2(tangent / length) : Vector2(Vector2::Zero());
+  result.node.position = at.position.head<2>();
+  result.slope = -at.across.z() / at.along.z();
+  result.node.tangent = line.held == Direction::kU ? section_tangent(at.across, at.along)
+                                                   : section_tangent(at.along, at.across);
   return result;
 }
 
+PatchPoint point_at(const FrontPatch& patch, const Vector2& parameters) {
+  const Blend blend(patch, Direction::kU, parameters.x());
+  const BlendPoint at(blend, parameters.y());
+  return {at.position, at.across / at.weight, at.along / at.weight};
+}
+
+Vector2 section_tangent(const Vector3& du, const Vector3& dv) {
+  // e_z x (du x dv)
+  const Vector2 tangent = du.head<2>() * dv.z() - dv.head<2>() * du.z();
+  const double squared = tangent.squaredNorm();
+  const double scale = du.squaredNorm() * dv.squaredNorm();
+  return squared > kLevel * kLevel * scale ? Vector2(tangent / std::sqrt(squared)) : Vector2(Vector2::Zero());
+}
+
 EdgePoint point_on_line(const FrontPatch& patch, Direction held, double at, double parameter) {
-  const Blend blend(patch, held, at);
-  const BernsteinPair basis(blend.degree, parameter);
-  Vector4 point = Vector4::Zero();
-  Vector4 along = Vector4::Zero();
-  Vector4 across = Vector4::Zero();
-  for (int k = 0; k <= blend.degree; ++k) {
-    point += basis.value[k] * blend.value[k];
-    along += basis.derivative[k] * blend.value[k];
-    across += basis.value[k] * blend.across[k];
-  }
-  const Vector3 cartesian = point.head<3>() / point.w();
-  const Vector3 d_along = (along.head<3>() - along.w() * cartesian) / point.w();
-  const Vector3 d_across = (across.head<3>() - across.w() * cartesian) / point.w();
-  const Vector3 normal = d_along.cross(d_across);
+  const PatchPoint point = point_at(patch, parameters_on(held, at, parameter));
+  const Vector3 normal = point.du.cross(point.dv);
   const double length = normal.norm();
-  return {cartesian.head<2>(), d_along.head<2>(), length > 0.0 ? std::abs(normal.z()) / length : 0.0};
+  return {point.position.head<2>(), (held == Direction::kU ? point.dv : point.du).head<2>(),
+          length > 0.0 ? std::abs(normal.z()) / length : 0.0};
 }
 
 }  // namespace lamina::engine

@@ -30,6 +30,19 @@ struct BernsteinPair {
   BernsteinPair(int degree, double t);
 };
 
+/// A point of a patch and the derivatives along its own parameters, each 0 to 1.
+struct PatchPoint {
+  Vector3 position;
+  Vector3 du;
+  Vector3 dv;
+};
+
+PatchPoint point_at(const FrontPatch& patch, const Vector2& parameters);
+
+/// Direction of a plane's section where a surface has these derivatives: the outward normal lies on its
+/// right. Zero where the surface is level or has no normal.
+Vector2 section_tangent(const Vector3& du, const Vector3& dv);
+
 /// Where along one parameter line, the other parameter held, the patch meets the plane. Between `low` and
 /// `high` its height crosses the plane once, upwards when `rising`.
 struct LineCrossing {
@@ -38,11 +51,13 @@ struct LineCrossing {
   double low = 0.0;
   double high = 1.0;
   bool rising = true;
+  double guess = -1.0;  ///< where it is looked for first; the middle when not between `low` and `high`
 };
 
 struct CrossingPoint {
   SectionNode node;  ///< its tangent has the solid on the left where the surface normal points out of it
   double parameter = 0.0;  ///< of the direction not held
+  double slope = 0.0;      ///< its derivative by the parameter held, along the section
 };
 
 /// By Newton steps kept inside the bracket, to the last bits of the parameter: the point is on the surface,

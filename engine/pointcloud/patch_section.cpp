@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "engine/model.h"
 #include "engine/pointcloud/arc_nodes.h"
@@ -170,45 +171,49 @@ bool PatchSection::emit_monotone(const double* net, const Rectangle& r, Directio
   const double t0 = by_u ? r.v0 : r.u0;
   const double t1 = by_u ? r.v1 : r.u1;
 
+  // Where a line between two heights is zero, as a first guess for the curve between them.
+  const auto zero_between = [](double from, double f_from, double to, double f_to) {
+    return from + (to - from) * f_from / (f_from - f_to);
+  };
   // Where the running parameter can go: the height must be below the plane at one edge and above at the
   // other.
   struct End {
     double t;
-    enum { kLine, kLowEdge, kHighEdge } where;
-    bool edge_rising;
+    std::optional<CrossingPoint> on_edge;
   };
-  End first{t0, End::kLine, false};
-  End last{t1, End::kLine, false};
-  const auto restrict_to = [&](const double* edge, bool wants_below, double s, bool is_low) {
-    const bool start_fits = (edge[0] < 0.0) == wants_below;
-    const bool end_fits = (edge[(count - 1) * stride] < 0.0) == wants_below;
+  End first{t0, std::nullopt};
+  End last{t1, std::nullopt};
+  const auto restrict_to = [&](const double* edge, bool wants_below, double s) {
+    const double f0 = edge[0];
+    const double f1 = edge[(count - 1) * stride];
+    const bool start_fits = (f0 < 0.0) == wants_below;
+    const bool end_fits = (f1 < 0.0) == wants_below;
     if (start_fits && end_fits) return true;
     if (!start_fits && !end_fits) return false;
-    const bool edge_rising = edge[0] < 0.0;
-    const double t = crossing_on_line(*patch_, z_, {solved, s, t0, t1, edge_rising}).parameter;
-    if (start_fits) {
-      if (t <= last.t) last = {t, is_low ? End::kLowEdge : End::kHighEdge, edge_rising};
-    } else {
-      if (t >= first.t) first = {t, is_low ? End::kLowEdge : End::kHighEdge, edge_rising};
-    }
+    CrossingPoint point =
+        crossing_on_line(*patch_, z_, {solved, s, t0, t1, f0 < 0.0, zero_between(t0, f0, t1, f1)});
+    const double t = point.parameter;
+    if (start_fits ? t > last.t : t < first.t) return true;
+    // As seen from lines across.
+    point.parameter = s;
+    point.slope = 1.0 / point.slope;
+    (start_fits ? last : first) = {t, point};
     return true;
   };
-  if (!restrict_to(low_edge, rising, s0, true)) return true;
-  if (!restrict_to(high_edge, !rising, s1, false)) return true;
+  if (!restrict_to(low_edge, rising, s0)) return true;
+  if (!restrict_to(high_edge, !rising, s1)) return true;
   if (!(first.t < last.t)) return true;
 
   const LineCrossing line{other(solved), 0.0, s0, s1, rising};
-  const auto point_at = [&](const End& end) {
-    if (end.where != End::kLine) {
-      return crossing_on_line(*patch_, z_,
-                              {solved, end.where == End::kLowEdge ? s0 : s1, t0, t1, end.edge_rising});
-    }
-    LineCrossing at = line;
-    at.at = end.t;
-    return crossing_on_line(*patch_, z_, at);
+  const auto point_at = [&](const End& end, std::ptrdiff_t at) {
+    if (end.on_edge) return *end.on_edge;
+    LineCrossing across = line;
+    across.at = end.t;
+    across.guess = zero_between(s0, low_edge[at], s1, high_edge[at]);
+    return crossing_on_line(*patch_, z_, across);
   };
-  const CrossingPoint start = point_at(first);
-  const CrossingPoint end = point_at(last);
+  const CrossingPoint start = point_at(first, 0);
+  const CrossingPoint end = point_at(last, (count - 1) * stride);
   // The outward normal lies on the right when v falls where the height rises with u, and u rises where it
   // rises with v.
   const bool flipped = by_u == rising;

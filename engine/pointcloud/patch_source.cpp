@@ -42,7 +42,7 @@ std::vector<PatchSource::Span> PatchSource::spans() const {
       span.u = u;
       span.v = v;
       if (trim_ != nullptr) {
-        const TrimPlace place = trim_->place_of(low(span), high(span));
+        const TrimPlace place = trim_->chords().place_of(low(span), high(span));
         if (place == TrimPlace::kOutside) continue;
         span.trimmed = place == TrimPlace::kCut;
       }

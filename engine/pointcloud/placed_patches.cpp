@@ -19,7 +19,7 @@ std::vector<PlacedPatch> placed_patches(const Surface& surface, const TrimRegion
     ++k;
     const Vector2 low(breaks_u[u], breaks_v[v]);
     const Vector2 high(breaks_u[u + 1], breaks_v[v + 1]);
-    const TrimPlace place = region == nullptr ? TrimPlace::kInside : region->place_of(low, high);
+    const TrimPlace place = region == nullptr ? TrimPlace::kInside : region->chords().place_of(low, high);
     if (place != TrimPlace::kOutside) placed.push_back({std::move(patch), low, high, place});
   }
   return placed;

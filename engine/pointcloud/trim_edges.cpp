@@ -91,7 +91,7 @@ void add_edge(Section& section, const TrimRegion& region, std::uint32_t edge, do
   const double length = along.norm();
   if (length == 0.0) return;
   Vector2 inwards = Vector2(-along.y(), along.x()) / length * kBeside * size.minCoeff();
-  if (!region.contains(middle + inwards)) inwards = -inwards;
+  if (!region.chords().contains(middle + inwards)) inwards = -inwards;
   const double height = region.on_surface(middle + inwards).z() - z;
   const SurfaceDerivatives d = evaluate_derivatives(surface, middle.x(), middle.y());
   const Vector3 normal = d.du.cross(d.dv);
