@@ -83,7 +83,9 @@ double volume_of(const std::vector<Shell>& list) {
   return volume;
 }
 
-void add_surfaces(const Model& model, BoundaryReport& report) {
+/// Of the faces of one solid; their volume, nothing where it is unclear.
+std::optional<double> add_surfaces(const Model& model, BoundaryReport& report) {
+  const std::size_t open_before = report.open_edges;
   const std::vector<FaceEdge> edges = face_edges(model);
   const EdgeChords chords(model, edges, report.joined_within);
   report.edges += edges.size();
@@ -124,12 +126,13 @@ void add_surfaces(const Model& model, BoundaryReport& report) {
     integrals.push_back(surface_integrals(surface));
     report.area += integrals.back().area;
   }
-  if (report.open_edges > 0) return;
+  if (report.open_edges > open_before) return std::nullopt;
   // At single points other edges end; along an edge more than one other means more than two faces.
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (2 * crowded[i] > points[i]) return;
+    if (2 * crowded[i] > points[i]) return std::nullopt;
   }
-  if (const auto list = shells(model, joints, integrals)) report.volume = volume_of(*list);
+  const auto list = shells(model, joints, integrals);
+  return list ? std::optional(volume_of(*list)) : std::nullopt;
 }
 
 void add_mesh(const TriangleMesh& mesh, BoundaryReport& report) {
@@ -167,8 +170,13 @@ void add_mesh(const TriangleMesh& mesh, BoundaryReport& report) {
 BoundaryReport boundary_report(const Model& model) {
   BoundaryReport report;
   report.joined_within = kJoinedPart * control_box(model).diagonal().norm();
-  if (!model.surfaces.empty() && report.joined_within > 0.0) add_surfaces(model, report);
-  if (model.surfaces.empty()) report.volume = 0.0;
+  report.volume = 0.0;
+  std::map<std::uint32_t, Model> solids;
+  for (const Surface& surface : model.surfaces) solids[surface.solid].surfaces.push_back(surface);
+  for (const auto& [number, solid] : solids) {
+    const auto volume = report.joined_within > 0.0 ? add_surfaces(solid, report) : std::nullopt;
+    report.volume = report.volume && volume ? std::optional(*report.volume + *volume) : std::nullopt;
+  }
   for (const TriangleMesh& mesh : model.meshes) add_mesh(mesh, report);
   if (!report.is_closed()) report.volume.reset();
   return report;

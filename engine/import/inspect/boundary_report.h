@@ -23,9 +23,10 @@ struct BoundaryReport {
   bool is_closed() const { return open_edges == 0; }
 };
 
-/// Compares points along every edge with all other edges. Edges count as joined where they are within a
-/// thousandth of the model's diagonal. The volume is that of the faces turned alike along their edges, voids
-/// (shells whose box lies in another's) taken off.
+/// Compares points along every edge with all other edges of the same solid, faces of no known solid counting
+/// as one. Edges count as joined where they are within a thousandth of the model's diagonal. The volume is
+/// that of the faces turned alike along their edges, voids (shells whose box lies in another's) taken off;
+/// known solids are added up, whether or not they overlap.
 BoundaryReport boundary_report(const Model& model);
 
 }  // namespace lamina::engine

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/import/import_error.h"
+#include "engine/import/inspect/boundary_report.h"
 #include "engine/import/inspect/trimmed_area.h"
 #include "engine/import/read_model.h"
 #include "engine/import/step/read_step.h"
@@ -66,4 +67,15 @@ TEST_CASE("corpus: STEP files have the faces and areas of the manifest, assembli
     ++files;
   }
   CHECK(files >= 8);
+}
+
+TEST_CASE("STEP: an assembly closes solid by solid, and its volume is theirs together") {
+  if (!corpus_present() || !has_opencascade()) {
+    WARN("the model corpus or OpenCASCADE is missing: skipped");
+    return;
+  }
+  const BoundaryReport report = boundary_report(read_model(corpus_file("real/as1-tu-203.stp")).model);
+  CHECK(report.is_closed());
+  // Its bolts fill holes and its parts touch: along many edges more than two faces meet.
+  CHECK(report.volume.value_or(0.0) == Approx(764518.03).epsilon(2e-5));
 }
