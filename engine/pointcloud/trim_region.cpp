@@ -11,14 +11,18 @@
 namespace lamina::engine {
 namespace {
 
-constexpr double kRelativeTolerance = 2e-4;
+/// Deviation of the chords in parts of the domain, and about in mm.
+constexpr double kMostOfDomain = 4e-4;
+constexpr double kMostOnSurface = 0.005;
 
 }  // namespace
 
 TrimRegion::TrimRegion(const Surface& surface, std::uint32_t number)
     : surface_(surface.nurbs), number_(number) {
   const Vector2 size(surface_.last_u() - surface_.first_u(), surface_.last_v() - surface_.first_v());
-  const double tolerance = kRelativeTolerance * size.minCoeff();
+  const Box3 box = control_box(surface_.net);
+  level_ = box.max().z() - box.min().z() <= kModelTolerance;
+  const double tolerance = std::min(kMostOfDomain, kMostOnSurface / box.diagonal().norm()) * size.minCoeff();
   std::vector<TrimChord> chords;
   for (const TrimLoop& loop : surface.trim) {
     if (loop.curves.empty()) continue;
@@ -51,8 +55,6 @@ TrimRegion::TrimRegion(const Surface& surface, std::uint32_t number)
     z_min_ = std::min(z_min_, bottom);
     z_max_ = std::max(z_max_, top);
   }
-  const Box3 box = control_box(surface_.net);
-  level_ = box.max().z() - box.min().z() <= kModelTolerance;
 }
 
 double TrimRegion::turning(std::size_t loop) const {

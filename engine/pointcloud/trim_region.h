@@ -14,8 +14,8 @@
 namespace lamina::engine {
 
 /// The part of a surface that lies inside its trim loops. In or out is answered on chords of the trim curves,
-/// whose deviation is two ten-thousandths of the surface's domain; exact places on them are found by whoever
-/// asks, on the curves themselves.
+/// whose deviation is at most 4e-4 of the surface's domain and about 0.005 mm on the surface; exact places on
+/// them are found by whoever asks, on the curves themselves.
 class TrimRegion {
  public:
   /// Of a surface with trim loops.

@@ -40,6 +40,11 @@ bool on_border(std::span<const SectionNode> nodes, const FrontPatch& patch) {
          all(1, 0.0, patch.low().y(), low.y()) || all(1, 1.0, patch.high().y(), high.y());
 }
 
+/// Whether a place lies ahead of a node, seen along a direction; everything does where there is none.
+bool is_ahead(const SectionNode& node, const Vector2& place, const Vector2& along) {
+  return along.isZero() || (place - node.position).dot(along) > 0.0;
+}
+
 /// Moves what `all` holds from `first` on to `taken`.
 template <typename T>
 void take_from(std::vector<T>& all, std::size_t first, std::vector<T>& taken) {
@@ -159,16 +164,21 @@ void SectionTrimmer::emit(const SectionArc& arc, Nodes nodes, const Cut& from, b
                           bool at_end) {
   SectionArc piece = arc;
   piece.first = static_cast<std::uint32_t>(section_->nodes.size());
+  const SectionNode start = at_start ? nodes.front() : node_at(nodes, from);
+  const SectionNode end = at_end ? nodes.back() : node_at(nodes, to);
+  std::size_t first = at_start ? 1 : from.k + 1;
+  std::size_t last = at_end ? nodes.size() - 1 : to.k + 1;
+  // An exact end may lie beyond nodes next to where the chords crossed: the arc does not turn back to them.
+  while (!at_start && first < last && !is_ahead(start, nodes[first].position, start.tangent)) ++first;
+  while (!at_end && first < last && !is_ahead(nodes[last - 1], end.position, end.tangent)) --last;
   const auto add = [&](const SectionNode& node) {
     const bool repeated =
         section_->nodes.size() > piece.first && section_->nodes.back().position == node.position;
     if (!repeated) section_->nodes.push_back(node);
   };
-  add(at_start ? nodes.front() : node_at(nodes, from));
-  for (std::size_t k = at_start ? 1 : from.k + 1;
-       k < nodes.size() && (at_end ? k + 1 < nodes.size() : k <= to.k); ++k)
-    add(nodes[k]);
-  add(at_end ? nodes.back() : node_at(nodes, to));
+  add(start);
+  for (std::size_t k = first; k < last; ++k) add(nodes[k]);
+  add(end);
   piece.count = static_cast<std::uint32_t>(section_->nodes.size()) - piece.first;
   if (piece.count < 2) {
     section_->nodes.resize(piece.first);

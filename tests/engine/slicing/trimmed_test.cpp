@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/model_bounds.h"
+#include "engine/nurbs/reverse.h"
 #include "engine/slicer.h"
 #include "tests/engine/slicing/sliced_layers.h"
 #include "tests/support/analytic_models.h"
@@ -61,6 +62,67 @@ TEST_CASE("its faces in the plane are the rectangle with the hole", "[slicing][t
     CHECK(std::abs(engine::signed_area(layer.planar.front().outer)) == Approx(300.0).epsilon(1e-9));
     CHECK(std::abs(engine::signed_area(layer.planar.front().inner.front())) ==
           Approx(16.0 * std::numbers::pi).epsilon(1e-4));
+  }
+}
+
+/// A closed cylinder wall as two surfaces that a wave around it parts.
+Model parted_cylinder(double radius, double height) {
+  const engine::NurbsSurface wall = revolved(segment_profile({radius, 0.0}, {radius, height}), {0, 0, 0});
+  const double u0 = wall.first_u();
+  const double u1 = wall.last_u();
+  const double v0 = wall.first_v();
+  const double v1 = wall.last_v();
+  constexpr int kWaves = 9;
+  engine::NurbsCurve wave{3, {}, {}};
+  constexpr int kPoints = 4 * kWaves + 3;
+  for (int k = 0; k < kPoints; ++k) {
+    const double share = static_cast<double>(k) / (kPoints - 1);
+    const double v = v0 + (v1 - v0) * (0.5 + 0.3 * std::sin(2.0 * std::numbers::pi * kWaves * share));
+    wave.control_points.emplace_back(u0 + (u1 - u0) * share, v, 0.0, 1.0);
+  }
+  wave.knots.assign(4, 0.0);
+  for (int k = 1; k < kPoints - 3; ++k) wave.knots.push_back(k);
+  wave.knots.insert(wave.knots.end(), 4, kPoints - 3.0);
+  const auto line = [](double ua, double va, double ub, double vb) {
+    return engine::NurbsCurve{1, {0, 0, 1, 1}, {{ua, va, 0, 1}, {ub, vb, 0, 1}}};
+  };
+  const double middle = 0.5 * (v0 + v1);
+  Model model;
+  for (const bool lower : {true, false}) {
+    engine::Surface surface;
+    surface.nurbs = wall;
+    if (lower) {
+      surface.trim = {{{line(u0, v0, u1, v0), line(u1, v0, u1, middle), engine::reversed(wave),
+                        line(u0, middle, u0, v0)}}};
+    } else {
+      surface.trim = {{{wave, line(u1, middle, u1, v1), line(u1, v1, u0, v1), line(u0, v1, u0, middle)}}};
+    }
+    model.surfaces.push_back(std::move(surface));
+  }
+  return model;
+}
+
+TEST_CASE("where faces meet in a wave, sections go on without turning back", "[slicing][trim]") {
+  constexpr double kRadius = 5.0;
+  const Model model = parted_cylinder(kRadius, 10.0);
+  for (double z = 0.37; z < 10.0; z += 0.71) {
+    CAPTURE(z);
+    const engine::LayerChains chains = chains_at(model, z, kEpsilon);
+    REQUIRE(chains.closed.size() == 1);
+    CHECK(chains.open.empty());
+    const engine::Loop loop = loops_of(chains).front();
+    double turned = 0.0;
+    double turned_in_all = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Vector2& at = loop[k];
+      const Vector2& next = loop[(k + 1) % loop.size()];
+      CHECK(at.norm() == Approx(kRadius).margin(1e-9));
+      const double turn = std::atan2(at.x() * next.y() - at.y() * next.x(), at.dot(next));
+      turned += turn;
+      turned_in_all += std::abs(turn);
+    }
+    CHECK(std::abs(turned) == Approx(2.0 * std::numbers::pi).epsilon(1e-12));
+    CHECK(turned_in_all == Approx(std::abs(turned)).epsilon(1e-12));
   }
 }
 
