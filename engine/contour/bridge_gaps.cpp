@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include "engine/contour/in_plane.h"
 #include "engine/contour/link_arcs.h"
 #include "engine/contour/node_chain.h"
 #include "engine/grid/point_index.h"
@@ -17,6 +18,8 @@ constexpr std::uint32_t kNone = PointIndex::kNone;
 /// at most: a fin that points at a wall from afar, or a wall that overshoots its corner, is none of their
 /// business.
 constexpr double kLongestLead = 10.0;
+/// A chain is bent back to where it begins only over gaps that are shorter than this part of it.
+constexpr double kBentBack = 1.0 / 3.0;
 
 /// End 2c is the front of chain c, end 2c + 1 its back.
 const ContourNode& end_node(const std::vector<NodeChain>& chains, std::uint32_t end) {
@@ -46,6 +49,7 @@ void join(NodeChain& chain, const NodeChain& tail, double joined) {
   chain.nodes.insert(chain.nodes.end(), tail.nodes.begin() + static_cast<std::ptrdiff_t>(first),
                      tail.nodes.end());
   if (first == 0) mark_bridge(chain.nodes[joint - 1], chain.nodes[joint]);
+  chain.normals_right += tail.normals_right;
 }
 
 void close(NodeChain& chain, double joined) {
@@ -102,8 +106,7 @@ std::vector<std::uint32_t> nearest_partners(const std::vector<NodeChain>& chains
       const double distance = (index.point(other) - index.point(k)).norm();
       if (distance > reach) return;
       if (distance > any_way && !face_each_other(chains, ends[k], ends[other])) return;
-      // A short piece is not bent back into itself.
-      if (ends[k] / 2 == ends[other] / 2 && length_of(chains[ends[k] / 2]) < 3.0 * distance) return;
+      if (ends[k] / 2 == ends[other] / 2 && distance > kBentBack * length_of(chains[ends[k] / 2])) return;
       pairs.push_back({distance, ends[k], ends[other]});
     });
   }
@@ -158,18 +161,23 @@ std::size_t open_count(const std::vector<NodeChain>& chains) {
       std::count_if(chains.begin(), chains.end(), [](const NodeChain& chain) { return !chain.closed; }));
 }
 
-/// Leads free ends to the nearest point of a chain's middle within reach.
-void lead_to_chains(BridgedChains& result, double reach) {
+/// Leads free ends to the nearest point of a chain's middle within reach; the end of a short fin not to the
+/// chain that the fin stands on.
+void lead_to_chains(BridgedChains& result, double reach, double joined) {
   std::vector<NodeChain>& chains = result.chains;
   const std::vector<NodeChain> before = chains;
   for (std::uint32_t end = 0; end < 2 * chains.size(); ++end) {
     if (before[end / 2].closed || !end_node(before, end).exact) continue;  // led there already
     const Vector2 place = end_node(before, end).position;
+    const Vector2 other_end = end_node(before, end ^ 1U).position;
+    const double farthest_back = kBentBack * length_of(before[end / 2]);
     double best = reach;
     Vector2 target = place;
     for (std::uint32_t c = 0; c < before.size(); ++c) {
       if (c == end / 2) continue;
       const NodeChain& chain = before[c];
+      const double farthest =
+          farthest_back < best && distance_to_chain(other_end, chain) <= joined ? farthest_back : best;
       const std::size_t count = chain.nodes.size() - (chain.closed ? 0 : 1);
       for (std::size_t s = 0; s < count; ++s) {
         const Vector2& a = chain.nodes[s].position;
@@ -178,7 +186,7 @@ void lead_to_chains(BridgedChains& result, double reach) {
         const double t = std::clamp((place - a).dot(along) / std::max(along.squaredNorm(), 1e-300), 0.0, 1.0);
         const Vector2 nearest = a + t * along;
         const double distance = (nearest - place).norm();
-        if (distance < best) {
+        if (distance < std::min(best, farthest)) {
           best = distance;
           target = nearest;
         }
@@ -247,11 +255,11 @@ BridgedChains bridge_gaps(std::vector<NodeChain> chains, const BridgeOptions& op
   if (all_closed()) return result;
   bridge(options.epsilon, options.epsilon);
   if (all_closed()) return result;
-  lead_to_chains(result, options.epsilon);
+  lead_to_chains(result, options.epsilon, options.joined);
   bridge(options.epsilon, options.longest_bridge);
   if (all_closed()) return result;
   const double lead = std::min(options.longest_bridge, kLongestLead * options.epsilon);
-  lead_to_chains(result, lead);
+  lead_to_chains(result, lead, options.joined);
   bridge(lead, lead);
   result.open_gaps = open_gaps(result.chains);
   return result;

@@ -1,22 +1,47 @@
 #include "engine/contour/chain_orientation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
+#include "engine/contour/node_chain.h"
 #include "engine/geometry/polygon.h"
 
 namespace lamina::engine {
 namespace {
 
+/// Part of a chain's length along which the normals have to point to the same side to be believed, less that
+/// along which they point to the other: facets that are turned over are few.
+constexpr double kOneSided = 0.9;
+
 double edge_length(const PlanarGraph& graph, const GraphEdge& edge) {
   return (position_of(graph.vertices[edge.a]) - position_of(graph.vertices[edge.b])).norm();
 }
 
-double chain_area(const NodeChain& chain) {
-  Loop loop;
-  loop.reserve(chain.nodes.size());
-  for (const ContourNode& node : chain.nodes) loop.push_back(node.position);
-  return signed_area(loop);
+/// +1 where all chains whose orientation is known have their solid on the side that the normals point away
+/// from, -1 where all have it on the other one; 0 where the normals contradict each other.
+int side_of_solids(const std::vector<NodeChain>& chains, const std::vector<int>& orientations) {
+  int side = 0;
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    if (std::abs(chains[c].normals_right) < kOneSided * length_of(chains[c])) return 0;
+    if (orientations[c] == 0) continue;
+    const int shown = chains[c].normals_right > 0.0 ? orientations[c] : -orientations[c];
+    if (side == -shown) return 0;
+    side = shown;
+  }
+  return side;
+}
+
+/// Whether a chain runs inside another one that it does not cross.
+bool lies_in_another(const std::vector<NodeChain>& chains, const PlanarGraph& graph, std::size_t inner) {
+  for (std::size_t outer = 0; outer < chains.size(); ++outer) {
+    if (outer == inner || !chains[outer].closed) continue;
+    const bool cross = std::any_of(graph.crossings.begin(), graph.crossings.end(), [&](const auto& pair) {
+      return std::minmax<std::size_t>(pair.first, pair.second) == std::minmax(inner, outer);
+    });
+    if (!cross && contains(loop_of(chains[outer]), chains[inner].nodes.front().position)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -42,6 +67,7 @@ std::vector<int> chain_orientations(const std::vector<NodeChain>& chains, const 
     if (vote[c] != 0.0) orientations[c] = vote[c] > 0.0 ? 1 : -1;
   }
   const std::vector<int> bordering = orientations;
+  const int normals = side_of_solids(chains, bordering);
   for (std::size_t c = 0; c < chains.size(); ++c) {
     if (bordering[c] != 0) continue;
     if (!chains[c].closed) {
@@ -50,8 +76,10 @@ std::vector<int> chain_orientations(const std::vector<NodeChain>& chains, const 
     }
     bool crosses = false;
     for (const auto& [a, b] : graph.crossings) crosses = crosses || a == c || b == c;
-    const bool counter_clockwise = chain_area(chains[c]) > 0.0;
-    orientations[c] = counter_clockwise == crosses ? 1 : -1;
+    const int filled = signed_area(loop_of(chains[c])) > 0.0 ? 1 : -1;
+    const int shown = chains[c].normals_right < 0.0 ? -normals : normals;
+    const bool hole = !crosses || (shown == -filled && lies_in_another(chains, graph, c));
+    orientations[c] = hole ? -filled : filled;
   }
   return orientations;
 }

@@ -11,9 +11,12 @@ namespace lamina::engine {
 /// right.
 ///
 /// Surface normals in files cannot be relied on, so a chain is judged by where it runs. One that borders the
-/// outside has its solid on the other side. Of the chains that do not, one that crosses a chain is another
-/// solid that overlaps, filled inside; one that only touches is a hole. Only an open chain that is enclosed
-/// goes by the normals, read the way the chains around it show.
+/// outside has its solid on the other side. Of the closed chains that do not, one that only touches is a
+/// hole; one that crosses a chain is another solid that overlaps, filled inside, or the hole of a solid that
+/// another one runs into. Only the normals can tell: it is a hole where they say so, where it lies inside a
+/// chain that it does not cross, and where nothing speaks against the normals: no chain along which they
+/// point now to one side and now to the other, and no chain that borders the outside the other way round than
+/// others do. An open chain that is enclosed goes by the normals, read the way the chains around it show.
 std::vector<int> chain_orientations(const std::vector<NodeChain>& chains, const PlanarGraph& graph,
                                     const PlanarFaces& faces);
 

@@ -20,6 +20,9 @@ struct ContourNode {
 struct NodeChain {
   std::vector<ContourNode> nodes;
   bool closed = false;
+  /// Length along which the surfaces' normals point to its right, less that along which they point to its
+  /// left, mm; 0 when unknown.
+  double normals_right = 0.0;
 };
 
 }  // namespace lamina::engine

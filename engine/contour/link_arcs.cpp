@@ -104,6 +104,7 @@ void reverse(NodeChain& chain) {
     node.tangent_out = -node.tangent_in;
     node.tangent_in = in;
   }
+  chain.normals_right = -chain.normals_right;
 }
 
 LinkedChains link_arcs(const Section& section, const std::vector<SectionArc>& arcs, double tolerance) {
@@ -156,13 +157,12 @@ LinkedChains link_arcs(const Section& section, const std::vector<SectionArc>& ar
 
   const auto walk = [&](std::uint32_t start) {
     NodeChain chain;
-    double directed = 0.0;
     std::uint32_t end = start;
     while (end != kNone && !used[end / 2]) {
       const std::uint32_t arc = end / 2;
       used[arc] = true;
       const bool reversed = end % 2 != 0;
-      directed += reversed ? -length_of(section, arcs[arc]) : length_of(section, arcs[arc]);
+      chain.normals_right += (reversed ? -1.0 : 1.0) * length_of(section, arcs[arc]);
       append(chain, section, arcs[arc], reversed);
       end = partner[end ^ 1U];
     }
@@ -174,7 +174,7 @@ LinkedChains link_arcs(const Section& section, const std::vector<SectionArc>& ar
       first.corner = is_corner(first.tangent_in, first.tangent_out);
       chain.nodes.pop_back();
     }
-    if (directed < 0.0) reverse(chain);
+    if (chain.normals_right < 0.0) reverse(chain);
     result.chains.push_back(std::move(chain));
   };
   for (std::uint32_t end = 0; end < end_count; ++end) {

@@ -134,6 +134,9 @@ void add_trim_edges(Section& section, const TrimRegion& region, double z, double
       section.touches.push_back({samples.front().position.head<2>(), false});
     }
   }
+  for (const Vector3& point : region.turning_points()) {
+    if (std::abs(point.z() - z) <= kModelTolerance) section.touches.push_back({point.head<2>(), false});
+  }
 }
 
 }  // namespace lamina::engine

@@ -50,8 +50,15 @@ TrimRegion::TrimRegion(const Surface& surface, std::uint32_t number)
         edge.begin(), edge.end(),
         [](const EdgeSample& a, const EdgeSample& b) { return a.position.z() < b.position.z(); });
     const auto& [bottom, top] = heights_.emplace_back(low->position.z(), high->position.z());
-    if (top - bottom <= 2.0 * kModelTolerance)
+    if (top - bottom <= 2.0 * kModelTolerance) {
       level_edges_.push_back(static_cast<std::uint32_t>(heights_.size() - 1));
+    } else {
+      for (std::size_t k = 1; k + 1 < edge.size(); ++k) {
+        const double z = edge[k].position.z();
+        if ((edge[k - 1].position.z() - z) * (edge[k + 1].position.z() - z) > 0.0)
+          turning_points_.push_back(edge[k].position);
+      }
+    }
     z_min_ = std::min(z_min_, bottom);
     z_max_ = std::max(z_max_, top);
   }

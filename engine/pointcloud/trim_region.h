@@ -35,6 +35,8 @@ class TrimRegion {
   bool is_level(std::uint32_t edge, double z) const;
   /// All edges that do.
   std::vector<std::uint32_t> edges_in_plane(double z) const;
+  /// Where edges are highest or lowest between their ends.
+  const std::vector<Vector3>& turning_points() const { return turning_points_; }
   /// Edges of each loop, [first, last).
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& loops() const { return loops_; }
   /// Twice the area of a loop in the parameter plane, positive counter-clockwise.
@@ -54,6 +56,7 @@ class TrimRegion {
   std::vector<std::vector<EdgeSample>> samples_;
   std::vector<std::pair<double, double>> heights_;  ///< z interval of each edge, mm
   std::vector<std::uint32_t> level_edges_;          ///< those that can lie in a horizontal plane
+  std::vector<Vector3> turning_points_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> loops_;
   TrimChords chords_;
   double z_min_ = 0.0;

@@ -37,6 +37,8 @@ TEST_CASE("contours keep to the model, and the model to the contours, where it i
       {"seed/skullmask1260.igs", 39.5, 0.01, {0.0563, 0.0}},
       // The tip of a fold, thinner than its chords are exact.
       {"seed/bust601_gaps.igs", 38.10009, 0.01, {4.659557, 31.190378}},
+      // A trimmed patch on which Newton's method alone finds a wrong foot.
+      {"real/DTMB-5415_bulbous_bow.iges", -345.789649, 0.05, {-2636.929352, 14.200556}},
   };
   for (const HardSection& hard : sections) {
     CAPTURE(hard.file, hard.z, hard.epsilon);

@@ -13,6 +13,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -72,7 +73,7 @@ struct CellResult {
   Extreme greatest;
   std::size_t true_points = 0;
   Extreme greatest_missed;
-  std::size_t damaged = 0;       ///< points beside listed defects, left out both ways
+  std::size_t damaged = 0;       ///< points beside defects, left out both ways
   std::size_t bridged = 0;       ///< points beside gaps that the slice report names, left out both ways
   std::size_t inside_union = 0;  ///< true points inside of several solids at once
   std::size_t layers = 0;
@@ -132,10 +133,18 @@ class SectionsBeside {
   SectionsBeside(tools::TrueSectioner& sectioner, double z, double spacing)
       : sectioner_(sectioner), z_(z), spacing_(spacing) {}
 
-  const std::vector<tools::TrueSection>& get() {
+  struct Beside {
+    tools::TrueSection section;
+    tools::KnownSolids solids;
+  };
+
+  const std::vector<Beside>& get() {
     if (sections_.empty()) {
-      for (const double sign : {-1.0, 1.0})
-        sections_.push_back(sectioner_.at(z_ + sign * kBeside, spacing_ / kFiner));
+      for (const double sign : {-1.0, 1.0}) {
+        tools::TrueSection section = sectioner_.at(z_ + sign * kBeside, spacing_ / kFiner);
+        tools::KnownSolids solids(section);
+        sections_.push_back({std::move(section), std::move(solids)});
+      }
     }
     return sections_;
   }
@@ -147,7 +156,7 @@ class SectionsBeside {
   tools::TrueSectioner& sectioner_;
   double z_;
   double spacing_;
-  std::vector<tools::TrueSection> sections_;
+  std::vector<Beside> sections_;
 };
 
 /// Whether a point of a surface has the solid on both sides: where solids overlap, no outline runs there. The
@@ -157,22 +166,20 @@ class SectionsBeside {
 bool inside_union(const Vector3& place, double epsilon, SectionsBeside& sections) {
   // Towards the corners of a square, so that one of the ways is well off the surface.
   const Vector2 ways[] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
-  for (const tools::TrueSection& section : sections.get()) {
-    const bool knows_solids = std::any_of(section.solids.begin(), section.solids.end(),
-                                          [](std::uint32_t solid) { return solid != 0; });
+  for (const auto& [section, solids] : sections.get()) {
     double least = std::numeric_limits<double>::infinity();
     double most = -least;
     std::array<bool, 4> outside{};
     for (std::size_t k = 0; k < outside.size(); ++k) {
       const Vector2 beside = place.head<2>() + 0.5 * epsilon * ways[k];
-      if (knows_solids && tools::in_known_solid(section, beside)) continue;
+      if (solids.contains(beside)) continue;
       outside[k] = true;
       const double winding = tools::winding_number(section, beside);
       least = std::min(least, winding);
       most = std::max(most, winding);
     }
     const bool neighbours = (outside[0] || outside[2]) && (outside[1] || outside[3]);
-    if (knows_solids && !neighbours) continue;
+    if (!solids.none() && !neighbours) continue;
     if (least < kLeastWinding && most > -kLeastWinding) return false;
   }
   return true;
@@ -218,7 +225,7 @@ std::vector<engine::SlicePlane> planes_of(const engine::Model& model, const Cell
 CellResult run_cell(const Cell& cell, const Arguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const engine::Model model = engine::read_model(cell.model->file).model;
-  const std::vector<tools::Damage> damage = tools::listed_damage(cell.model->file, model);
+  const std::vector<tools::Damage> damage = tools::damage_of(cell.model->file, model);
   engine::SliceOptions options;
   options.epsilon = cell.epsilon;
   tools::SurfaceDistance surfaces(model);
@@ -244,7 +251,7 @@ std::string left_out(const CellResult& result) {
   const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) text += fmt::format(" {} {},", count, what);
   };
-  add(result.damaged, "beside listed defects");
+  add(result.damaged, "beside defects");
   add(result.bridged, "on bridged gaps");
   add(result.inside_union, "inside a union");
   if (!text.empty()) text.pop_back();

@@ -7,12 +7,21 @@
 namespace lamina::tools {
 namespace {
 
+/// Contours do not cross: all of a loop lies in another or nothing of it. But where they touch, a corner may
+/// seem to lie beyond the other's chords, so that most of its points decide.
+bool lies_in(const engine::Loop& loop, const engine::Loop& around) {
+  const auto inside = std::count_if(loop.begin(), loop.end(), [&](const engine::Vector2& point) {
+    return engine::contains(around, point);
+  });
+  return 2 * static_cast<std::size_t>(inside) > loop.size();
+}
+
 std::vector<std::size_t> nesting_depths(const std::vector<engine::Loop>& loops) {
   std::vector<std::size_t> depths;
   for (const engine::Loop& loop : loops) {
     depths.push_back(
         static_cast<std::size_t>(std::count_if(loops.begin(), loops.end(), [&](const engine::Loop& around) {
-          return &around != &loop && engine::contains(around, loop.front());
+          return &around != &loop && lies_in(loop, around);
         })));
   }
   std::sort(depths.begin(), depths.end());

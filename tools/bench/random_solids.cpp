@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/nurbs/knot_insertion.h"
+#include "engine/nurbs/surface.h"
 #include "tests/support/analytic_models.h"
 
 namespace lamina::tools {
@@ -33,6 +34,18 @@ Vector2 direction(int side) {
   return {std::cos(angle), std::sin(angle)};
 }
 
+/// A box of plane faces whose normals (du, dv, normal being right-handed) all point outwards.
+Model outward_box(const Vector3& size) {
+  Model box = tests::box(Vector3::Zero(), size).model;
+  for (engine::Surface& face : box.surfaces) {
+    const engine::ControlNet& net = face.nurbs.net;
+    const auto corner = [&](std::size_t i, std::size_t j) -> Vector3 { return net.at(i, j).head<3>(); };
+    const Vector3 normal = (corner(1, 0) - corner(0, 0)).cross(corner(0, 1) - corner(0, 0));
+    if (normal.dot(corner(0, 0) - 0.5 * size) < 0.0) face.nurbs = engine::transposed(face.nurbs);
+  }
+  return box;
+}
+
 }  // namespace
 
 RandomSolid RandomSolids::next(int index) {
@@ -52,7 +65,7 @@ Model RandomSolids::solid(int kind) {
     case 0:
       return tests::sphere(Vector3::Zero(), number(1.0, 3.0)).model;
     case 1:
-      return tests::box(Vector3::Zero(), {number(1.0, 4.0), number(1.0, 4.0), number(1.0, 4.0)}).model;
+      return outward_box({number(1.0, 4.0), number(1.0, 4.0), number(1.0, 4.0)});
     case 2:
       return vase();
     case 3:

@@ -87,30 +87,38 @@ FootPoint foot_on_patch(const engine::Vector3& point, const engine::BezierPatch&
   return {best, uv};
 }
 
-double certain_distance_to_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
-                                 double best) {
+FootPoint certain_foot_on_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
+                                double farthest) {
   struct Part {
     double to_box;
     engine::BezierPatch patch;
+    engine::Vector2 low;  ///< corners in the whole patch
+    engine::Vector2 high;
     bool operator<(const Part& other) const { return to_box > other.to_box; }
   };
-  const auto part = [&](engine::BezierPatch piece) {
-    const double to_box = engine::control_box(piece.net).exteriorDistance(point);
-    return Part{to_box, std::move(piece)};
-  };
   std::priority_queue<Part> parts;
-  parts.push(part(patch));
+  const auto add = [&](engine::BezierPatch piece, const engine::Vector2& low, const engine::Vector2& high) {
+    const double to_box = engine::control_box(piece.net).exteriorDistance(point);
+    parts.push({to_box, std::move(piece), low, high});
+  };
+  add(patch, engine::Vector2::Zero(), engine::Vector2::Ones());
+  FootPoint best{farthest, {}};
   for (int count = 0; count < kMostParts && !parts.empty(); ++count) {
     const Part nearest = parts.top();
     parts.pop();
-    if (nearest.to_box >= best - kCertain) break;
-    best = std::min(best, foot_on_patch(point, nearest.patch, coarse_grid(nearest.patch)).distance);
+    if (nearest.to_box >= best.distance - kCertain) break;
+    const FootPoint foot = foot_on_patch(point, nearest.patch, coarse_grid(nearest.patch));
+    if (foot.distance < best.distance)
+      best = {foot.distance, nearest.low + foot.parameters.cwiseProduct(nearest.high - nearest.low)};
     if (engine::control_box(nearest.patch.net).diagonal().norm() < kSmallestPart) continue;
-    const auto [low, high] = engine::halves_in_u(nearest.patch);
-    for (const engine::BezierPatch& half : {low, high}) {
-      auto [first, second] = engine::halves_in_v(half);
-      parts.push(part(std::move(first)));
-      parts.push(part(std::move(second)));
+    const engine::Vector2 middle = 0.5 * (nearest.low + nearest.high);
+    auto [left, right] = engine::halves_in_u(nearest.patch);
+    for (const bool upper_u : {false, true}) {
+      auto [first, second] = engine::halves_in_v(upper_u ? right : left);
+      const double from = upper_u ? middle.x() : nearest.low.x();
+      const double to = upper_u ? nearest.high.x() : middle.x();
+      add(std::move(first), {from, nearest.low.y()}, {to, middle.y()});
+      add(std::move(second), {from, middle.y()}, {to, nearest.high.y()});
     }
   }
   return best;
@@ -133,28 +141,27 @@ void SurfaceDistance::select_plane(double z, double reach) {
   bins_ = PlanarBins(std::move(boxes));
 }
 
-/// The least of `best` and the distance to what counts of the candidate.
-double SurfaceDistance::distance_to(const Candidate& candidate, const engine::Vector3& point,
-                                    double best) const {
-  const FootPoint foot = foot_on_patch(point, candidate.part->patch, candidate.coarse);
+/// The least of `best` and the distance to what counts of a patch whose nearest point is known.
+double SurfaceDistance::distance_to(const ModelPatch& part, const engine::Vector3& point,
+                                    const FootPoint& foot, double best) {
   if (foot.distance >= best) return best;
-  return candidate.part->counts(foot.parameters)
-             ? foot.distance
-             : std::min(best, candidate.part->trim->distance_to_rim(point));
+  return part.counts(foot.parameters) ? foot.distance : std::min(best, part.trim->distance_to_rim(point));
 }
 
 double SurfaceDistance::distance(const engine::Vector3& point, const Trust& trust) const {
   const double local = bins_.nearest(point.head<2>(), trust.enough, [&](std::uint32_t item, double best) {
     const Candidate& candidate = candidates_[selected_[item]];
-    return candidate.box.exteriorDistance(point) >= best ? best : distance_to(candidate, point, best);
+    if (candidate.box.exteriorDistance(point) >= best) return best;
+    return distance_to(*candidate.part, point, foot_on_patch(point, candidate.part->patch, candidate.coarse),
+                       best);
   });
   if (local <= trust.local) return local;
   return bins_.nearest(point.head<2>(), trust.enough, [&](std::uint32_t item, double best) {
     const Candidate& candidate = candidates_[selected_[item]];
     const double bound = std::min(best, local);
-    return candidate.box.exteriorDistance(point) >= bound || candidate.part->trim != nullptr
-               ? bound
-               : certain_distance_to_patch(point, candidate.part->patch, bound);
+    if (candidate.box.exteriorDistance(point) >= bound) return bound;
+    return distance_to(*candidate.part, point, certain_foot_on_patch(point, candidate.part->patch, bound),
+                       bound);
   });
 }
 

@@ -26,9 +26,10 @@ struct FootPoint {
 FootPoint foot_on_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
                         const CoarseGrid& coarse);
 
-/// The least of `best` and the distance to the patch, to 1e-6 mm: halves of the patch are searched, the
-/// nearest first, until no box of their nets can be nearer.
-double certain_distance_to_patch(const engine::Vector3& point, const engine::BezierPatch& patch, double best);
+/// The nearest point of a patch, its distance to 1e-6 mm; when nothing is nearer than `farthest` (mm), that:
+/// halves of the patch are searched, the nearest first, until no box of their nets can be nearer.
+FootPoint certain_foot_on_patch(const engine::Vector3& point, const engine::BezierPatch& patch,
+                                double farthest);
 
 /// Distances from points near one plane to a model's surfaces.
 class SurfaceDistance {
@@ -45,7 +46,7 @@ class SurfaceDistance {
 
   /// Distance to the nearest patch of the selection, mm; infinite when the selection is empty. Up to
   /// `trust.local` an upper bound of the true distance, above it the true one. Of a patch that trim curves
-  /// cut, where the foot is trimmed away, it is the distance to the rim: an upper bound.
+  /// cut, where its nearest point is trimmed away, it is the distance to the rim: an upper bound.
   double distance(const engine::Vector3& point, const Trust& trust) const;
 
  private:
@@ -55,7 +56,8 @@ class SurfaceDistance {
     CoarseGrid coarse;
   };
 
-  double distance_to(const Candidate& candidate, const engine::Vector3& point, double best) const;
+  static double distance_to(const ModelPatch& part, const engine::Vector3& point, const FootPoint& foot,
+                            double best);
 
   ModelPatches parts_;
   std::vector<Candidate> candidates_;

@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kBisections = 60;
 constexpr double kSolved = 1e-7;  // mm along the line
+/// A trimmed surface that does not go on so far on both sides of the plane may end in it, mm.
+constexpr double kBeside = 1e-5;
 constexpr double kFewestIntervals = 3.0;
 constexpr double kMostIntervals = 400.0;
 /// Points this near the plane lie in it, mm: the engine's own word on what a plane touches.
@@ -46,19 +48,20 @@ TrueSectioner::TrueSectioner(const engine::Model& model, unsigned seed) : parts_
 
 TrueSection TrueSectioner::at(double z, double spacing) {
   TrueSection section;
-  for (const Candidate& candidate : candidates_) {
+  for (Candidate& candidate : candidates_) {
     if (candidate.box.min().z() <= z + kInPlane && candidate.box.max().z() >= z - kInPlane)
       cut(candidate, z, spacing, section);
   }
   for (const TrimOutline& outline : parts_.outlines) {
-    const std::vector<engine::Vector2> rim = outline.crossings(z);
-    section.crossings.insert(section.crossings.end(), rim.begin(), rim.end());
+    const TrimOutline::Crossings rim = outline.crossings(z);
+    section.crossings.insert(section.crossings.end(), rim.through.begin(), rim.through.end());
+    section.in_plane.insert(section.in_plane.end(), rim.in_plane.begin(), rim.in_plane.end());
   }
   return section;
 }
 
-/// From 0 to 1, evenly but for a random part of the spacing.
-std::vector<double> TrueSectioner::places(double size, double spacing) {
+/// From 0 to 1, evenly but for a random part of the spacing, and at the extremes.
+std::vector<double> TrueSectioner::places(double size, double spacing, const std::vector<double>& extremes) {
   const double intervals = std::clamp(std::ceil(size / spacing), kFewestIntervals, kMostIntervals);
   std::uniform_real_distribution<double> shift(-0.4, 0.4);
   std::vector<double> result;
@@ -66,12 +69,15 @@ std::vector<double> TrueSectioner::places(double size, double spacing) {
     const bool end = k == 0.0 || k == intervals;
     result.push_back((k + (end ? 0.0 : shift(random_))) / intervals);
   }
+  result.insert(result.end(), extremes.begin(), extremes.end());
+  std::sort(result.begin(), result.end());
   return result;
 }
 
-void TrueSectioner::cut(const Candidate& candidate, double z, double spacing, TrueSection& section) {
-  const std::vector<double> us = places(candidate.size_u, spacing);
-  const std::vector<double> vs = places(candidate.size_v, spacing);
+void TrueSectioner::cut(Candidate& candidate, double z, double spacing, TrueSection& section) {
+  if (!candidate.extremes) candidate.extremes = lines_through_extremes(candidate.part->patch);
+  const std::vector<double> us = places(candidate.size_u, spacing, candidate.extremes->us);
+  const std::vector<double> vs = places(candidate.size_v, spacing, candidate.extremes->vs);
   const std::size_t columns = vs.size();
   const engine::BezierPatch& patch = candidate.part->patch;
   const auto counts = [&](const engine::Vector2& uv) { return candidate.part->counts(uv); };
@@ -99,56 +105,91 @@ void TrueSectioner::cut(const Candidate& candidate, double z, double spacing, Tr
     }
     return low;
   };
-  // The crossing on the side of a cell from one grid point to its neighbour in u or in v; nothing where it is
-  // trimmed away.
-  const auto crossing = [&](std::size_t i, std::size_t j, bool along_u) -> std::optional<engine::Vector2> {
+  struct Crossing {
+    engine::Vector2 uv;
+    engine::Vector2 place;
+    bool counts = false;  ///< false: trimmed away
+  };
+  // On the side of a cell from one grid point to its neighbour in u or in v.
+  const auto crossing = [&](std::size_t i, std::size_t j, bool along_u) -> std::optional<Crossing> {
     const std::size_t i2 = along_u ? i + 1 : i;
     const std::size_t j2 = along_u ? j : j + 1;
     if (!crosses(height(i, j), height(i2, j2))) return std::nullopt;
     const engine::Vector2 uv = solve({us[i], vs[j]}, {us[i2], vs[j2]}, height(i, j) < 0.0);
-    if (!counts(uv)) return std::nullopt;
-    section.crossings.emplace_back(evaluate_point(patch, uv.x(), uv.y()).head<2>());
-    return section.crossings.back();
+    const Crossing found{uv, evaluate_point(patch, uv.x(), uv.y()).head<2>(), counts(uv)};
+    if (!found.counts) return found;
+    const engine::Vector2 step = along_u ? engine::Vector2(kBeside / candidate.size_u, 0.0)
+                                         : engine::Vector2(0.0, kBeside / candidate.size_v);
+    const bool passes = counts(uv - step) && counts(uv + step);
+    (passes ? section.crossings : section.in_plane).push_back(found.place);
+    return found;
   };
-  std::vector<std::optional<engine::Vector2>> on_u(heights.size());
-  std::vector<std::optional<engine::Vector2>> on_v(heights.size());
+  std::vector<std::optional<Crossing>> on_u(heights.size());
+  std::vector<std::optional<Crossing>> on_v(heights.size());
   for (std::size_t i = 0; i < us.size(); ++i) {
     for (std::size_t j = 0; j < columns; ++j) {
       if (i + 1 < us.size()) on_u[i * columns + j] = crossing(i, j, true);
       if (j + 1 < columns) on_v[i * columns + j] = crossing(i, j, false);
     }
   }
+  // Where the piece between two crossings, one of which is trimmed away, meets the rim.
+  const auto at_rim = [&](engine::Vector2 inside, engine::Vector2 outside) -> engine::Vector2 {
+    for (int k = 0; k < kBisections && (outside - inside).cwiseAbs().maxCoeff() * size > kSolved; ++k) {
+      const engine::Vector2 middle = 0.5 * (inside + outside);
+      (counts(middle) ? inside : outside) = middle;
+    }
+    return evaluate_point(patch, inside.x(), inside.y()).head<2>();
+  };
   for (std::size_t i = 0; i + 1 < us.size(); ++i) {
     for (std::size_t j = 0; j + 1 < columns; ++j) {
       // Around the cell counter-clockwise in (u, v).
       struct Side {
-        double from, to;
-        const std::optional<engine::Vector2>* place;
+        double from;
+        const std::optional<Crossing>& crossing;
       };
-      const std::array<Side, 4> sides{{{height(i, j), height(i + 1, j), &on_u[i * columns + j]},
-                                       {height(i + 1, j), height(i + 1, j + 1), &on_v[(i + 1) * columns + j]},
-                                       {height(i + 1, j + 1), height(i, j + 1), &on_u[i * columns + j + 1]},
-                                       {height(i, j + 1), height(i, j), &on_v[i * columns + j]}}};
-      const std::optional<engine::Vector2>* falling = nullptr;
-      const std::optional<engine::Vector2>* rising = nullptr;
+      const std::array<Side, 4> sides{{{height(i, j), on_u[i * columns + j]},
+                                       {height(i + 1, j), on_v[(i + 1) * columns + j]},
+                                       {height(i + 1, j + 1), on_u[i * columns + j + 1]},
+                                       {height(i, j + 1), on_v[i * columns + j]}}};
+      const Crossing* falling = nullptr;
+      const Crossing* rising = nullptr;
       int count = 0;
       for (const Side& side : sides) {
-        if (!crosses(side.from, side.to)) continue;
+        if (!side.crossing) continue;
         ++count;
-        (side.from < 0.0 ? rising : falling) = side.place;
+        (side.from < 0.0 ? rising : falling) = &*side.crossing;
       }
       // Walking from the falling side to the rising one keeps what is above the plane on the left in (u, v),
       // and the direction is e_z x normal (du, dv, normal being right-handed), solid on the left.
-      if (count == 2 && falling != nullptr && rising != nullptr && *falling && *rising) {
-        section.pieces.emplace_back(**rising, **falling);
-        section.solids.push_back(candidate.part->solid);
-      }
+      if (count != 2 || falling == nullptr || rising == nullptr) continue;
+      if (!falling->counts && !rising->counts) continue;
+      section.pieces.emplace_back(rising->counts ? rising->place : at_rim(falling->uv, rising->uv),
+                                  falling->counts ? falling->place : at_rim(rising->uv, falling->uv));
+      section.solids.push_back(candidate.part->solid);
     }
   }
 }
 
-bool in_known_solid(const TrueSection& section, const engine::Vector2& place) {
-  // Along no side of a common part: beside the rims of trimmed surfaces a piece may be missing.
+KnownSolids::KnownSolids(const TrueSection& section) {
+  std::map<std::uint32_t, Solid> by_number;
+  for (std::size_t k = 0; k < section.pieces.size(); ++k) {
+    if (section.solids[k] == 0) continue;
+    Solid& solid = by_number[section.solids[k]];
+    solid.pieces.push_back(section.pieces[k]);
+    solid.box.extend(section.pieces[k].first).extend(section.pieces[k].second);
+  }
+  for (auto& [number, solid] : by_number) solids_.push_back(std::move(solid));
+}
+
+bool KnownSolids::contains(const engine::Vector2& place) const {
+  return std::any_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
+    return solid.box.contains(place) && contains(solid.pieces, place);
+  });
+}
+
+bool KnownSolids::contains(const std::vector<SectionPiece>& pieces, const engine::Vector2& place) {
+  // Along no side of a common part. Where a feature of the trim loops is smaller than a cell a piece may be
+  // missing, hence several rays.
   constexpr std::size_t kRays = 9;
   constexpr double kFirstAngle = 0.2718;
   std::array<engine::Vector2, kRays> ways;
@@ -156,23 +197,19 @@ bool in_known_solid(const TrueSection& section, const engine::Vector2& place) {
     const double angle = kFirstAngle + 2.0 * std::numbers::pi * static_cast<double>(k) / kRays;
     ways[k] = {std::cos(angle), std::sin(angle)};
   }
-  std::map<std::uint32_t, std::array<bool, kRays>> odd;
-  for (std::size_t p = 0; p < section.pieces.size(); ++p) {
-    if (section.solids[p] == 0) continue;
-    const engine::Vector2 a = section.pieces[p].first - place;
-    const engine::Vector2 b = section.pieces[p].second - place;
+  std::array<bool, kRays> odd{};
+  for (const SectionPiece& piece : pieces) {
+    const engine::Vector2 a = piece.first - place;
+    const engine::Vector2 b = piece.second - place;
     for (std::size_t k = 0; k < kRays; ++k) {
       const double side_a = ways[k].x() * a.y() - ways[k].y() * a.x();
       const double side_b = ways[k].x() * b.y() - ways[k].y() * b.x();
       if ((side_a > 0.0) == (side_b > 0.0)) continue;
       const engine::Vector2 hit = a + side_a / (side_a - side_b) * (b - a);
-      if (hit.dot(ways[k]) > 0.0) odd[section.solids[p]][k] = !odd[section.solids[p]][k];
+      if (hit.dot(ways[k]) > 0.0) odd[k] = !odd[k];
     }
   }
-  return std::any_of(odd.begin(), odd.end(), [](const auto& solid) {
-    return 2 * std::count(solid.second.begin(), solid.second.end(), true) >
-           static_cast<std::ptrdiff_t>(kRays);
-  });
+  return 2 * std::count(odd.begin(), odd.end(), true) > static_cast<std::ptrdiff_t>(kRays);
 }
 
 double winding_number(const TrueSection& section, const engine::Vector2& place) {

@@ -13,6 +13,8 @@ namespace {
 constexpr unsigned kSeed = 31;
 constexpr double kJoined = 1e-5;         // mm
 constexpr double kFinestSpacing = 0.01;  // mm
+/// Planes beside one that a corner of patches lies in: which side it is on is for rounding to say.
+constexpr double kBeside[] = {0.0, 1e-5, -1e-5};  // mm
 
 /// Ends of pieces by place: piece 2k begins, 2k + 1 ends.
 class Ends {
@@ -107,8 +109,11 @@ std::optional<std::vector<engine::Region>> true_regions(const std::vector<engine
   for (const engine::Model& part : parts) {
     TrueSectioner sectioner(part, kSeed);
     std::optional<std::vector<engine::Loop>> loops;
-    for (double fine = spacing; !loops && fine >= kFinestSpacing; fine *= 0.6)
-      loops = loops_of(sectioner.at(z, fine).pieces);
+    for (double fine = spacing; !loops && fine >= kFinestSpacing; fine *= 0.6) {
+      for (const double beside : kBeside) {
+        if (!loops) loops = loops_of(sectioner.at(z + beside, fine).pieces);
+      }
+    }
     if (!loops) return std::nullopt;
     regions.push_back(gcode::fill_even_odd(*loops));
   }
@@ -120,29 +125,44 @@ engine::Region true_union(const std::vector<engine::Region>& regions, double nar
 }
 
 engine::Region true_nesting(const std::vector<engine::Region>& regions, double narrowest) {
-  // Polygons that meet are one; then each lies apart from, or inside, every other.
-  std::vector<engine::Region> groups;
-  for (const engine::Region& region : regions) {
-    for (const engine::Polygon& polygon : region) groups.push_back({polygon});
-  }
-  const auto meet = [&](const engine::Region& a, const engine::Region& b) {
-    return engine::area(gcode::intersect(a, b)) > 0.0 && engine::area(gcode::subtract(a, b)) > 0.0 &&
-           engine::area(gcode::subtract(b, a)) > 0.0;
+  struct Outline {
+    engine::Loop loop;
+    engine::Region disc;
+    std::size_t part = 0;
+    std::size_t group = 0;
   };
-  for (bool joined = true; joined;) {
-    joined = false;
-    for (std::size_t a = 0; a < groups.size() && !joined; ++a) {
-      for (std::size_t b = a + 1; b < groups.size() && !joined; ++b) {
-        if (!meet(groups[a], groups[b])) continue;
-        groups[a] = gcode::unite({groups[a], groups[b]});
-        groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(b));
-        joined = true;
+  std::vector<Outline> outlines;
+  const auto add = [&](const engine::Loop& loop, std::size_t part) {
+    outlines.push_back({loop, gcode::fill_even_odd({loop}), part, outlines.size()});
+  };
+  for (std::size_t part = 0; part < regions.size(); ++part) {
+    for (const engine::Polygon& polygon : regions[part]) {
+      add(polygon.outer, part);
+      for (const engine::Loop& hole : polygon.holes) add(hole, part);
+    }
+  }
+  const auto meet = [&](const Outline& a, const Outline& b) {
+    return engine::area(gcode::intersect(a.disc, b.disc)) > 0.0 &&
+           engine::area(gcode::subtract(a.disc, b.disc)) > 0.0 &&
+           engine::area(gcode::subtract(b.disc, a.disc)) > 0.0;
+  };
+  for (std::size_t a = 0; a < outlines.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const std::size_t group = outlines[a].group;
+      if (group == outlines[b].group || !meet(outlines[a], outlines[b])) continue;
+      for (Outline& outline : outlines) {
+        if (outline.group == group) outline.group = outlines[b].group;
       }
     }
   }
+  // Of each group what its parts fill together; the groups' outlines do not meet and nest by parity.
+  std::map<std::size_t, std::map<std::size_t, std::vector<engine::Loop>>> groups;
+  for (Outline& outline : outlines) groups[outline.group][outline.part].push_back(std::move(outline.loop));
   std::vector<engine::Loop> loops;
-  for (const engine::Region& group : groups) {
-    for (const engine::Polygon& polygon : group) {
+  for (const auto& [group, parts] : groups) {
+    std::vector<engine::Region> filled;
+    for (const auto& [part, its_loops] : parts) filled.push_back(gcode::fill_even_odd(its_loops));
+    for (const engine::Polygon& polygon : gcode::unite(filled)) {
       loops.push_back(polygon.outer);
       loops.insert(loops.end(), polygon.holes.begin(), polygon.holes.end());
     }

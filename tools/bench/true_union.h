@@ -13,8 +13,9 @@ namespace lamina::tools {
 /// means that the lines were too far apart for the shape.
 std::optional<std::vector<engine::Loop>> loops_of(const std::vector<SectionPiece>& pieces);
 
-/// What each part fills at height z, by parity of its true section. The engine has no part in it. Nothing
-/// where no spacing down to a hundredth of a millimetre gives closed loops.
+/// What each part fills at height z, or 1e-5 mm beside it where the section at z does not close, by parity of
+/// its true section. The engine has no part in it. Nothing where no spacing down to a hundredth of a
+/// millimetre gives closed loops.
 std::optional<std::vector<engine::Region>> true_regions(const std::vector<engine::Model>& parts, double z,
                                                         double spacing);
 
@@ -22,8 +23,8 @@ std::optional<std::vector<engine::Region>> true_regions(const std::vector<engine
 /// left out.
 engine::Region true_union(const std::vector<engine::Region>& regions, double narrowest);
 
-/// The same but for regions that lie wholly inside another one, whose outlines do not meet: those count by
-/// parity, as cavities.
+/// The same but for outlines that lie wholly inside another region and meet none of its outlines: those count
+/// by parity. A solid within another is a cavity, a hole that another solid covers stays a hole.
 engine::Region true_nesting(const std::vector<engine::Region>& regions, double narrowest);
 
 }  // namespace lamina::tools

@@ -161,10 +161,13 @@ ExitCode run(const ContoursArguments& arguments) {
   const engine::Box3 bounds = engine::model_bounds(model);
   if (bounds.isEmpty())
     throw Failure(ExitCode::kGeometry, model.name + " holds nothing that could be sliced");
-  const std::vector<engine::SlicePlane> planes =
-      arguments.heights.empty() ? plan_layers(model, bounds, settings.planes).planes : planes_at(arguments.heights);
+  const std::vector<engine::SlicePlane> planes = arguments.heights.empty()
+                                                     ? plan_layers(model, bounds, settings.planes).planes
+                                                     : planes_at(arguments.heights);
   for (const engine::SlicePlane& plane : planes) {
-    if (plane.z >= bounds.min().z() && plane.z <= bounds.max().z()) continue;
+    if (plane.z >= bounds.min().z() - engine::kModelTolerance &&
+        plane.z <= bounds.max().z() + engine::kModelTolerance)
+      continue;
     say_warnings({fmt::format("z = {} mm misses the model, which reaches from {} to {} mm", plane.z,
                               bounds.min().z(), bounds.max().z())});
   }

@@ -123,6 +123,47 @@ TEST_CASE("gaps below epsilon vanish", "[slicing][facets]") {
   }
 }
 
+TriangleMesh turned_over(TriangleMesh mesh) {
+  for (auto& facet : mesh.facets) std::swap(facet[1], facet[2]);
+  return mesh;
+}
+
+TEST_CASE("a hole that another solid runs into is filled only where that solid is", "[slicing][facets]") {
+  const TriangleMesh plate = box_mesh({0, 0, 0}, {10, 10, 5});
+  const TriangleMesh hole = turned_over(box_mesh({3, 3, 0}, {7, 7, 5}));
+  const TriangleMesh rib = box_mesh({5, 4, -1}, {12, 6, 6});
+  const double area = 100.0 - 16.0 + 4.0 + 4.0;
+  CHECK(area_at(model_of("plate and rib", {plate, hole, rib}), 2.0) == Approx(area).epsilon(1e-6));
+  // The same where all normals of the file point inwards.
+  const Model inwards = model_of("inwards", {turned_over(plate), turned_over(hole), turned_over(rib)});
+  CHECK(area_at(inwards, 2.0) == Approx(area).epsilon(1e-6));
+  // Where the normals contradict each other the hole may as well be a solid.
+  CHECK(area_at(model_of("contrary", {plate, hole, turned_over(rib)}), 2.0) == Approx(104.0).epsilon(1e-6));
+}
+
+TEST_CASE("a solid turned inside out is no hole of those that it crosses", "[slicing][facets]") {
+  const TriangleMesh left = box_mesh({0, 0, 0}, {10, 10, 5});
+  const TriangleMesh right = box_mesh({8, 0, 0}, {15, 10, 5});
+  const TriangleMesh inner = turned_over(box_mesh({4, 3, 0}, {12, 7, 5}));
+  CHECK(area_at(model_of("three boxes", {left, right, inner}), 2.0) == Approx(150.0).epsilon(1e-6));
+}
+
+TEST_CASE("a fin stays an open contour and is not bent back to the wall that it stands on",
+          "[slicing][facets]") {
+  TriangleMesh box = box_mesh({0, 0, 0}, {20, 10, 5});
+  const auto first = static_cast<std::uint32_t>(box.vertices.size());
+  // Slanting, so that its free edge is near the wall: 0.24 mm at z = 2.
+  box.vertices.insert(box.vertices.end(), {{7, 0, 0}, {7, 0, 5}, {7.3F, -0.3F, 2.5F}});
+  box.facets.push_back({first, first + 1, first + 2});
+  const Model model = model_of("box with a fin", {box});
+  const Layer layer = layer_at(model, 2.0);
+  REQUIRE(layer.closed.size() == 1);
+  CHECK(area_at(model, 2.0) == Approx(200.0).epsilon(1e-9));
+  REQUIRE(layer.open.size() == 1);
+  CHECK(engine::length(layer.open.front().curve) == Approx(std::sqrt(2.0) * 0.24).epsilon(1e-6));
+  CHECK(layer.report.bridged_gaps.empty());
+}
+
 TEST_CASE("meshes that overlap give their union, with solids of surfaces as well", "[slicing][facets]") {
   Model model = model_of("two boxes", {box_mesh({0, 0, 0}, {10, 10, 5}), box_mesh({5, 5, 0}, {15, 15, 5})});
   CHECK(area_at(model, 2.0) == Approx(175.0).epsilon(1e-6));
