@@ -4,35 +4,21 @@ Usage: printcore_prints.py LAMINA MODEL. Exit code 77: printrun is not installed
 """
 
 import json
-import logging
 import os
+import pathlib
 import signal
 import subprocess
 import sys
 import tempfile
-import time
 
-try:
-    from printrun import gcoder
-    from printrun.printcore import printcore
-except ImportError:
-    print("printrun is not installed: skipped")
-    sys.exit(77)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools" / "bench"))
+from printcore_host import connect, print_to_end  # noqa: E402
 
 LIMIT = 90  # s
 
 
-def wait_until(condition, what):
-    deadline = time.monotonic() + LIMIT
-    while not condition():
-        if time.monotonic() > deadline:
-            sys.exit(f"timed out: {what}")
-        time.sleep(0.02)
-
-
 def main():
     lamina, model = sys.argv[1:3]
-    logging.disable(logging.CRITICAL)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "print.gcode")
         planned = json.loads(subprocess.run(
@@ -42,18 +28,9 @@ def main():
                                     stdout=subprocess.PIPE, text=True)
         try:
             port = emulator.stdout.readline().strip()
-            host = printcore()
-            host.connect(port, 115200)
-            wait_until(lambda: host.online, "printcore does not come online")
+            host = connect(port, 115200, LIMIT)
             with open(path, encoding="ascii") as file:
-                host.startprint(gcoder.LightGCode(file.readlines()))
-            wait_until(lambda: not host.printing, "the print does not end")
-            # printcore calls a print over when the last line is sent; an answer after M400 means that it has run.
-            answers = []
-            host.recvcb = answers.append
-            host.send("M400")
-            host.send("M114")
-            wait_until(lambda: any(line.startswith("X:") for line in answers), "no position at the end")
+                print_to_end(host, file.readlines(), LIMIT)
             host.disconnect()
         finally:
             emulator.send_signal(signal.SIGINT)

@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <array>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array kCommands{"G1 X10.5 Y-0.250 E0.03",
                                "G1 X1",
+                               "G1 X10.5 E1",
                                "G28",
                                "M109 S200",
                                "M105",
@@ -40,12 +41,54 @@ constexpr std::array kWords{"ok\n",
                             "Resend: 1\n",
                             "//action:pause\n",
                             "okok\n",
-                            "Error:Line Number is not Last Line Number+1, Last Line: 0\n"};
+                            "Error:Line Number is not Last Line Number+1, Last Line: 0\n",
+                            "echo:busy: paused for user\n",
+                            "Error:No Checksum with line number, Last Line: 1\nResend: 2\nok\n",
+                            "X:1.00 Y:0.00 Z:0.00 E:0.00 Count X:0 Y:0 Z:0\nok\n",
+                            "X:10.50 Y:-0.25 Z:0.00 E:0.00 Count X:0 Y:0 Z:0\nok\n"};
+
+/// Where the engine may be when the script begins: each of its states, and what makes a difference within
+/// one.
+enum class Situation {
+  kIdle,
+  kWaitingForStart,
+  kWaitingToRejoin,
+  kGreeting,
+  kSettling,
+  kNothingToDo,
+  kLinesOnTheirWay,
+  kEndHeld,         ///< a line's end is held back
+  kHeldLineBroken,  ///< it was when an error came: what has left of it has to be erased
+  kBlocked,         ///< a heating line runs
+  kPaused,          ///< M0 has been taken and waits for the user
+  kUrgent,          ///< a line without a number is on its way
+  kWritingFile,
+  kNegotiating,  ///< the printer is asked to unpack
+  kPacked,
+  kPlainForGood,  ///< was packed
+  kDraining,      ///< to go back
+  kOlderLinesRun,
+  kPlaceAsked,  ///< where the printer is
+  kRanWithoutNumber,
+  kProbing,
+  kQuestionAsked,
+  kRejoinProbing,
+  kRejoined,
+  kCautious,  ///< one line at a time for good
+  kEnded
+};
+constexpr unsigned kSituations = static_cast<unsigned>(Situation::kEnded) + 1;
+
+constexpr const char* kRefusedLine1 = "Error:checksum mismatch, Last Line: 0\nResend: 1\nok\n";
 
 /// Reads the script and acts it out.
 class Script {
  public:
-  explicit Script(std::string_view input) : input_(input), engine_(options(next())) {}
+  explicit Script(std::string_view input)
+      : input_(input),
+        options_(options(next())),
+        situation_(static_cast<Situation>(next() % kSituations)),
+        engine_(suited(options_, situation_)) {}
 
   void run() {
     start();
@@ -71,10 +114,41 @@ class Script {
     options.window.lines = 1 + how % 4U;
     options.window.hold_ends = (how & 4U) != 0;
     options.meatpack = (how & 8U) != 0;
+    options.meatpack_after = 0;
     options.form.blanks = (how & 16U) != 0;
     options.cautious_lines = (how & 32U) != 0 ? 3 : 200;
     options.history_lines = (how & 64U) != 0 ? 4 : 256;
     options.baud = (how & 128U) != 0 ? 0 : 115200;
+    return options;
+  }
+
+  /// `options`, but for what the situation needs.
+  static EngineOptions suited(EngineOptions options, Situation situation) {
+    switch (situation) {
+      case Situation::kEndHeld:
+      case Situation::kHeldLineBroken:
+        options.window = {3, 127, true};
+        break;
+      case Situation::kLinesOnTheirWay:
+      case Situation::kOlderLinesRun:
+        options.window = {3, 127, false};
+        break;
+      case Situation::kNegotiating:
+      case Situation::kPacked:
+      case Situation::kPlainForGood:
+        options.window.lines = std::max<std::size_t>(options.window.lines, 2);
+        options.meatpack = true;
+        break;
+      case Situation::kPlaceAsked:
+      case Situation::kRanWithoutNumber:
+        options.window.lines = 1;
+        break;
+      case Situation::kCautious:
+        options.noisy_resends = 1;
+        break;
+      default:
+        break;
+    }
     return options;
   }
 
@@ -85,41 +159,155 @@ class Script {
     return byte;
   }
 
-  /// Takes the engine to one of its states.
-  void start() {
-    const unsigned char where = next() % 12U;
-    if (where == 0) return;
-    next() % 2U == 0 ? engine_.connect(now_) : engine_.rejoin(now_);
-    if (where == 1) return;
-    wait(std::chrono::seconds(3));
-    if (where == 2) return;
-    engine_.receive("ok\n", now_);
-    if (where == 3) return;
-    engine_.receive("Error:Line Number is not Last Line Number+1, Last Line: 7\nResend: 8\nok\n", now_);
-    wait(std::chrono::seconds(1));
-    if (where == 4) return;
-    if (where == 8) {
-      engine_.receive("Cap:MEATPACK:1\n", now_);
-      engine_.receive("[MP] PV01 ON NSP\n", now_);
-      return;
-    }
-    if (where == 9 || where == 10) {
-      // A command that blocks, and a file being written.
-      engine_.submit(where == 9 ? "M109 S200" : "M28 A.GCO", LineOrigin::kJob);
-      engine_.tick(now_);
-      if (where == 10) engine_.receive("ok\n", now_);
-      return;
-    }
-    if (where == 11) {
-      engine_.close("at the start");
-      return;
-    }
-    for (int i = 0; i < 4; ++i) engine_.submit("G1 X1", LineOrigin::kJob);
+  void hear(const std::string& reply) { engine_.receive(reply, now_); }
+
+  void submit(std::string command) {
+    engine_.submit(std::move(command), LineOrigin::kJob);
     engine_.tick(now_);
-    if (where == 5) return;
-    engine_.receive("Error:checksum mismatch, Last Line: 0\nResend: 1\nok\n", now_);
-    if (where == 6) return;
-    wait(std::chrono::minutes(1));
+  }
+
+  /// A line that has run.
+  void run_line(std::string command) {
+    submit(std::move(command));
+    hear("ok\n");
+  }
+
+  void settle() {
+    engine_.connect(now_);
+    wait(std::chrono::seconds(3));
+    hear("ok\n");
+    wait(std::chrono::seconds(1));
+  }
+
+  void is_in(EngineState state) { require(engine_.state() == state, "not where the script is to begin"); }
+
+  /// Takes the engine there.
+  void start() {
+    switch (situation_) {
+      case Situation::kIdle:
+        return is_in(EngineState::kIdle);
+      case Situation::kWaitingForStart:
+        engine_.connect(now_);
+        return is_in(EngineState::kWaitingForStart);
+      case Situation::kGreeting:
+        engine_.connect(now_);
+        wait(std::chrono::seconds(3));
+        return is_in(EngineState::kGreeting);
+      case Situation::kSettling:
+        engine_.connect(now_);
+        wait(std::chrono::seconds(3));
+        hear("ok\n");
+        return is_in(EngineState::kSettling);
+      case Situation::kWaitingToRejoin:
+      case Situation::kRejoinProbing:
+      case Situation::kRejoined:
+        return rejoin();
+      case Situation::kEnded:
+        engine_.connect(now_);
+        engine_.close("at the start");
+        return is_in(EngineState::kEnded);
+      default:
+        settle();
+        is_in(EngineState::kStreaming);
+        begin_print();
+    }
+  }
+
+  void rejoin() {
+    engine_.rejoin(now_);
+    is_in(EngineState::kWaitingForStart);
+    if (situation_ == Situation::kWaitingToRejoin) return;
+    wait(std::chrono::seconds(3));
+    wait(std::chrono::seconds(1));
+    is_in(EngineState::kProbing);
+    if (situation_ == Situation::kRejoinProbing) return;
+    hear("Error:Line Number is not Last Line Number+1, Last Line: 7\nResend: 8\nok\n");
+    is_in(EngineState::kDraining);
+  }
+
+  void begin_print() {
+    switch (situation_) {
+      case Situation::kLinesOnTheirWay:
+        for (int i = 0; i < 5; ++i) submit("G1 X1");
+        require(engine_.outstanding().size() >= 2, "not where the script is to begin");
+        break;
+      case Situation::kEndHeld:
+      case Situation::kHeldLineBroken:
+        for (int i = 0; i < 5; ++i) submit("G1 X1");
+        require(engine_.outstanding().back().held, "not where the script is to begin");
+        if (situation_ == Situation::kHeldLineBroken) hear(kRefusedLine1);
+        break;
+      case Situation::kBlocked:
+        submit("M109 S200");
+        hear("echo:busy: processing\n");
+        break;
+      case Situation::kPaused:
+        submit("M0");
+        hear("echo:busy: paused for user\n");
+        submit("G1 X1");
+        break;
+      case Situation::kUrgent:
+        engine_.send_urgent("M108", now_);
+        ++urged_;
+        break;
+      case Situation::kWritingFile:
+        run_line("M28 A.GCO");
+        submit("G1 X1");
+        break;
+      case Situation::kNegotiating:
+      case Situation::kPacked:
+      case Situation::kPlainForGood:
+        hear("Cap:MEATPACK:1\n");
+        if (situation_ == Situation::kNegotiating) break;
+        hear("[MP] PV01 ON NSP\n[MP] PV01 ON ESP\n");
+        require(engine_.packs(), "not where the script is to begin");
+        for (int i = 0; i < 5; ++i) submit("G1 X1 E-.5");
+        if (situation_ == Situation::kPlainForGood) hear(kRefusedLine1);
+        break;
+      case Situation::kDraining:
+        submit("G1 X1");
+        hear(kRefusedLine1);
+        is_in(EngineState::kDraining);
+        break;
+      case Situation::kOlderLinesRun:
+        for (int i = 0; i < 5; ++i) submit("G1 X1");
+        hear("Error:checksum mismatch, Last Line: 1\nResend: 2\nok\n");
+        is_in(EngineState::kDraining);
+        break;
+      case Situation::kPlaceAsked:
+      case Situation::kRanWithoutNumber:
+        lose_number();
+        break;
+      case Situation::kProbing:
+      case Situation::kQuestionAsked:
+        submit("G1 X1");
+        wait(std::chrono::seconds(30));
+        if (situation_ == Situation::kQuestionAsked) wait(std::chrono::seconds(1));
+        is_in(EngineState::kProbing);
+        break;
+      case Situation::kCautious:
+        submit("G1 X1");
+        hear(kRefusedLine1);
+        wait(std::chrono::seconds(1));
+        require(engine_.cautious(), "not where the script is to begin");
+        break;
+      default:
+        break;
+    }
+  }
+
+  void lose_number() {
+    run_line("G1 X1 E1");
+    submit("G1 X2 E1");
+    hear("Error:No Checksum with line number, Last Line: 1\nResend: 2\nok\n");
+    wait(std::chrono::milliseconds(50));
+    wait(std::chrono::milliseconds(50));
+    hear("Error:Line Number is not Last Line Number+1, Last Line: 1\nResend: 2\nok\n");
+    wait(std::chrono::milliseconds(50));
+    require(engine_.take_output().find("M110") != std::string::npos, "not where the script is to begin");
+    if (situation_ == Situation::kPlaceAsked) return;
+    for (int i = 0; i < 2; ++i) hear("X:2.00 Y:0.00 Z:0.00 E:1.00 Count X:0 Y:0 Z:0\nok\n");
+    is_in(EngineState::kStreaming);
   }
 
   void step() {
@@ -202,6 +390,8 @@ class Script {
   }
 
   std::string_view input_;
+  EngineOptions options_;
+  Situation situation_;
   ProtocolEngine engine_;
   Instant now_{};
   LineNumber sent_ = 0;

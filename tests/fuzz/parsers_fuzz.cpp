@@ -5,11 +5,11 @@
 #include "tests/fuzz/fuzz_targets.h"
 #include "transport/emulator/emulator.h"
 #include "transport/emulator/gcode_command.h"
-#include "transport/emulator/meatpack_decoder.h"
 #include "transport/protocol/line_form.h"
 #include "transport/protocol/line_framing.h"
 #include "transport/protocol/line_stripper.h"
 #include "transport/protocol/meatpack.h"
+#include "transport/protocol/meatpack_decoder.h"
 #include "transport/protocol/packable_form.h"
 #include "transport/protocol/reply.h"
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "transport/session/command_words.h"
+#include "transport/protocol/command_words.h"
 #include "transport/session/curve_chords.h"
 
 using namespace lamina::transport;

@@ -668,6 +668,93 @@ TEST_CASE("engine: lines asked for although their oks were there: those oks were
   CHECK(bench.engine.statistics().stray_replies == 1);
 }
 
+namespace {
+
+constexpr const char* kPlaceQuestion = "N1 M114 M110 N1*";
+
+/// Behind N1, which has run, the printer wants N2, which extrudes to X2; and an ok has come for which there
+/// is no line. Up to the question where the printer is.
+void lose_number_of_line_2(Bench& bench) {
+  bench.connect();
+  bench.submit("G1 X1 E1");
+  bench.hear("ok\n");
+  bench.submit("G1 X2 E1");
+  bench.hear("ok\n");
+  bench.submit("G1 X3 E1");
+  bench.hear(kRefused2);
+  REQUIRE(bench.state() == "draining");
+  // That number may be an older one; asking for the place gives the number anew, so it has to be certain.
+  CHECK(bench.wait(50ms) == "\n");
+  CHECK(bench.wait(50ms).starts_with("N2000000000 M105*"));
+  CHECK(bench.hear("Error:Line Number is not Last Line Number+1, Last Line: 1\nResend: 2\nok\n").empty());
+  CHECK(bench.wait(50ms).starts_with(kPlaceQuestion));
+}
+
+std::string at_x(double x) {
+  return fmt::format("X:{:.2f} Y:0.00 Z:0.00 E:1.00 Count X:0 Y:0 Z:0\nok\n", x);
+}
+
+}  // namespace
+
+TEST_CASE("engine: a move that has run without its number is not run again") {
+  Bench bench(one_line());
+  lose_number_of_line_2(bench);
+  // Once may be noise.
+  CHECK(bench.hear(at_x(2)).starts_with(kPlaceQuestion));
+  CHECK(bench.hear(at_x(2)) == frame_line(2, "M105"));
+  CHECK(bench.take<StrayReply>().size() >= 2);
+  bench.events.clear();
+  CHECK(bench.hear("ok T:20 /0\n") == frame_line(3, "G1 X3 E1"));
+  CHECK(bench.engine.statistics().lines_acknowledged == 2);
+}
+
+TEST_CASE("engine: a move that has not run is sent again, and so is one of which nobody can tell") {
+  for (const std::string& answer : {at_x(1), at_x(7), std::string("X:2.0\nok\n"), std::string("ok\n"),
+                                    std::string("echo:Unknown command: \"M11\"\nok\n")}) {
+    INFO(answer);
+    Bench bench(one_line());
+    lose_number_of_line_2(bench);
+    std::string sent;
+    for (int questions = 0; questions < 10 && sent.find("N2 ") == std::string::npos; ++questions) {
+      CHECK((questions == 0 || sent.starts_with(kPlaceQuestion)));
+      sent = bench.hear(answer) + bench.wait(50ms);
+    }
+    CHECK(sent == frame_line(2, "G1 X2 E1"));
+  }
+}
+
+TEST_CASE("engine: a number without a sum may have lost a command that ran, though its ok is still to come") {
+  Bench bench(one_line());
+  bench.connect();
+  bench.submit("G1 X1 E1");
+  bench.hear("ok\n");
+  bench.submit("G1 X2 E1");
+  bench.hear("Error:No Checksum with line number, Last Line: 1\nResend: 2\nok\n");
+  CHECK(bench.wait(50ms) == "\n");
+  CHECK(bench.wait(50ms).starts_with("N2000000000 M105*"));
+  bench.hear("Error:Line Number is not Last Line Number+1, Last Line: 1\nResend: 2\nok\n");
+  CHECK(bench.wait(50ms).starts_with(kPlaceQuestion));
+  // The tail's ok, at last, looks like the question's.
+  CHECK(bench.hear("ok\n").starts_with(kPlaceQuestion));
+  CHECK(bench.hear(at_x(2)).starts_with(kPlaceQuestion));
+  CHECK((bench.hear(at_x(2)) + bench.wait(50ms)).ends_with(frame_line(2, "M105")));
+}
+
+TEST_CASE("engine: the place is not asked for where it would tell nothing") {
+  for (const std::string command : {"G1 E1", "G1 X1 E1", "G1 X2", "M104 S200", "G92 X2 E0"}) {
+    INFO(command);
+    Bench bench(one_line());
+    bench.connect();
+    bench.submit("G1 X1 E1");
+    bench.hear("ok\n");
+    bench.submit(command);
+    bench.hear("ok\n");
+    bench.submit("G1 X3 E1");
+    bench.hear(kRefused2);
+    CHECK(bench.wait(50ms) == frame_line(2, command));
+  }
+}
+
 TEST_CASE("engine: injected lines overtake job lines that wait") {
   Bench bench(one_line());
   bench.connect();
@@ -819,4 +906,25 @@ TEST_CASE("engine: an ok for something else does not stand for the answer that a
     }
   }
   CHECK(rejoined);
+}
+
+TEST_CASE("engine: a host that rejoins may have its lines packed like any other") {
+  EngineOptions options;
+  options.meatpack_after = 0;
+  ProtocolEngine engine(options);
+  Instant now{};
+  const auto wait = [&](Duration time) {
+    now += time;
+    engine.tick(now);
+    return engine.take_output();
+  };
+  engine.rejoin(now);
+  wait(3s);
+  wait(1s);
+  engine.receive("Error:Line Number is not Last Line Number+1, Last Line: 7\nResend: 8\nok\n", now);
+  wait(50ms);
+  engine.receive("ok T:20 /0\n", now);
+  engine.receive("Cap:MEATPACK:1\n[MP] PV01 ON NSP\n", now);
+  engine.receive("[MP] PV01 ON NSP\n", now);
+  CHECK(engine.packs());
 }

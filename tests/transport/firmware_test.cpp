@@ -53,6 +53,25 @@ TEST_CASE("firmware: G10 and G11 move the filament and not its coordinate") {
   CHECK(Talk(without).say("G10\n") == "echo:Unknown command: \"G10\"\nok\n");
 }
 
+TEST_CASE(
+    "firmware: a line with M110 in it runs its first command, whatever its number, and gives that number") {
+  Talk talk;
+  const auto framed = [](LineNumber number, const std::string& command) {
+    return frame_line(number, command, {false});
+  };
+  talk.say(framed(1, "G92X5Y6Z7") + framed(2, "M105"));
+  const std::string place = talk.say(framed(2, "M114M110N2"));
+  CHECK(place.starts_with("X:5.00 Y:6.00 Z:7.00 E:0.00 Count"));
+  CHECK(place.ends_with("\nok\n"));
+  CHECK(talk.printer.last_line() == 2);
+  CHECK(talk.printer.report().doubled_lines == 0);
+  // Its sum is looked at.
+  std::string damaged = framed(2, "M114M110N2");
+  damaged[3] = '5';
+  CHECK(talk.say(damaged).starts_with("Error:checksum mismatch, Last Line: 2\n"));
+  CHECK(talk.say(framed(3, "M105")).starts_with("ok T:"));
+}
+
 TEST_CASE("firmware: G29 takes its time and tells a grid") {
   Talk talk;
   CHECK(talk.say("G29\n", 10s).empty());

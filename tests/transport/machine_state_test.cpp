@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "transport/session/command_words.h"
+#include "transport/protocol/command_words.h"
 
 using namespace lamina::transport;
 

@@ -5,18 +5,14 @@ With --hangs it must not come to the end: printcore waits for a lost ok for ever
 exit codes: 0 as expected, 1 not so, 77 printrun is not installed (skipped)
 """
 
-import logging
 import math
+import pathlib
 import subprocess
 import sys
 import time
 
-try:
-    from printrun import gcoder
-    from printrun.printcore import printcore
-except ImportError:
-    print("printrun is not installed: skipped")
-    sys.exit(77)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools" / "bench"))
+from printcore_host import connect, print_to_end, start_print  # noqa: E402
 
 CHORDS = 300
 EXTRUSION = 0.03125
@@ -33,14 +29,6 @@ def sample():
     return lines + ["M104 S0", "M140 S0", "M84", "M400"]
 
 
-def wait_until(condition, what):
-    deadline = time.monotonic() + LIMIT
-    while not condition():
-        if time.monotonic() > deadline:
-            sys.exit(f"timed out: {what}")
-        time.sleep(0.02)
-
-
 def wait_until_it_hangs(host):
     sent, since = host.queueindex, time.monotonic()
     while time.monotonic() - since < HANGS_FOR:
@@ -53,28 +41,19 @@ def wait_until_it_hangs(host):
 
 
 def main():
-    logging.disable(logging.CRITICAL)
     hangs = sys.argv[1] == "--hangs"
     command = sys.argv[2:] if hangs else sys.argv[1:]
     emulator = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     try:
         path = emulator.stdout.readline().strip()
-        host = printcore()
-        host.connect(path, 115200)
-        wait_until(lambda: host.online, "printcore does not come online")
-        host.startprint(gcoder.LightGCode(sample()))
+        host = connect(path, 115200, LIMIT)
         if hangs:
+            start_print(host, sample())
             wait_until_it_hangs(host)
             host.cancelprint()
             host.disconnect()
             return
-        wait_until(lambda: not host.printing, "the print does not end")
-        # printcore calls a print over when the last line is sent; an answer to M400 means that it has run.
-        answers = []
-        host.recvcb = answers.append
-        host.send("M400")
-        host.send("M114")
-        wait_until(lambda: any(line.startswith("X:") for line in answers), "no position at the end")
+        print_to_end(host, sample(), LIMIT)
         host.disconnect()
     finally:
         report, _ = emulator.communicate(timeout=LIMIT)

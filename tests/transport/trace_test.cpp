@@ -106,6 +106,7 @@ TEST_CASE("trace: text and trace are inverses, for every byte") {
   trace.header.engine.window = {5, 200, false};
   trace.header.engine.baud = 250000;
   trace.header.engine.form.blanks = true;
+  trace.header.engine.meatpack_after = 77;
   trace.header.engine.start_wait = 1234ms;
   std::string every_byte;
   for (int i = 0; i < 256; ++i) every_byte += static_cast<char>(i);
@@ -122,11 +123,12 @@ TEST_CASE("trace: text and trace are inverses, for every byte") {
   CHECK_FALSE(read.header.engine.window.hold_ends);
   CHECK(read.header.engine.baud == 250000);
   CHECK(read.header.engine.form.blanks);
+  CHECK(read.header.engine.meatpack_after == 77);
   CHECK(read.header.engine.start_wait == 1234ms);
   // A line is a line, whatever its bytes.
   const std::string text = to_text(trace);
   const auto entries = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-  CHECK(entries == 10 + 1 + trace.entries.size());  // the header ends with a blank line
+  CHECK(entries == 11 + 1 + trace.entries.size());  // the header ends with a blank line
 }
 
 TEST_CASE("trace: it reads like this") {
@@ -284,6 +286,7 @@ TEST_CASE("replay: prints of the past come out the same") {
     PrintJobOptions options = quick_start();
     options.temperature_interval = Duration{};  // they would come a hundred times a second
     std::ofstream(kGolden[0], std::ios::binary) << to_text(traced_print(0.002, options));
+    options.engine.meatpack_after = 500;
     std::ofstream(kGolden[1], std::ios::binary) << to_text(traced_print(0.001, options, packed));
   }
   for (const std::string& path : kGolden) {

@@ -30,8 +30,9 @@ struct FaultPlan {
 
 /// The schedule of that seed: a link (speed, latency, kind of ok, packing), faults by chance at rates up to
 /// `highest_rate` a byte, and some to order. Damaged bytes keep a line's length apart: two in one line can
-/// cancel out in Marlin's checksum, an exclusive or, whatever the host does; and packed lines are not given
-/// bytes too many, which it does not see either where both characters are the same.
+/// cancel out in Marlin's checksum, an exclusive or, whatever the host does; and links that may pack get no
+/// bytes put in from nowhere on the way to the printer, which it does not see either where they stand for two
+/// equal characters.
 FaultPlan random_plan(std::uint64_t seed, std::size_t window, double highest_rate);
 
 /// What came of it.

@@ -1,6 +1,7 @@
 #include "tools/bench/trim_outline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/geometry/bspline_basis.h"
@@ -99,8 +100,8 @@ double TrimOutline::distance_to_rim(const engine::Vector3& point) const {
   return distance_at(0.5 * (low + high));
 }
 
-std::vector<engine::Vector2> TrimOutline::crossings(double z) const {
-  std::vector<engine::Vector2> places;
+TrimOutline::Crossings TrimOutline::crossings(double z) const {
+  Crossings crossings;
   for (const Chord& chord : chords_) {
     if (chord.curve == Chord::kNoCurve || (chord.from.z() < z) == (chord.to.z() < z)) continue;
     double low = chord.t0;
@@ -109,9 +110,12 @@ std::vector<engine::Vector2> TrimOutline::crossings(double z) const {
       const double middle = 0.5 * (low + high);
       ((place(chord.curve, middle).z() < z) == (chord.from.z() < z) ? low : high) = middle;
     }
-    places.emplace_back(place(chord.curve, low).head<2>());
+    // Which side an end in the plane is on is for rounding to say.
+    const bool ends_there =
+        std::min(std::abs(chord.from.z() - z), std::abs(chord.to.z() - z)) <= engine::kModelTolerance;
+    (ends_there ? crossings.in_plane : crossings.through).emplace_back(place(chord.curve, low).head<2>());
   }
-  return places;
+  return crossings;
 }
 
 ModelPatches::ModelPatches(const engine::Model& model) {

@@ -22,8 +22,14 @@ class TrimOutline {
   /// To the nearest point of the loops on the surface, mm.
   double distance_to_rim(const engine::Vector3& point) const;
 
+  struct Crossings {
+    std::vector<engine::Vector2> through;   ///< where a loop passes through the plane
+    std::vector<engine::Vector2> in_plane;  ///< where it may do so by rounding alone: it runs in the plane,
+                                            ///< or has a corner there
+  };
+
   /// Where the loops cross the plane at height z.
-  std::vector<engine::Vector2> crossings(double z) const;
+  Crossings crossings(double z) const;
 
  private:
   /// Between two parameters of a trim curve; of no curve (kNoCurve) where it closes the gap to the next one.

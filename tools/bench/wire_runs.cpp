@@ -27,6 +27,8 @@ WireUse measure(const std::vector<std::string>& lines, const WireCase& wire, con
   options.to_host.latency = wire.latency;
   options.to_host.packet = wire.latency > Duration{} ? 62 : 0;
   if (!wire.window) options.job.engine.window.lines = 1;
+  // As in a print that has gone well for a while.
+  options.job.engine.meatpack_after = 0;
   // Nothing beside the lines themselves.
   options.job.temperature_interval = Duration{};
   options.time_limit = std::chrono::hours(10);

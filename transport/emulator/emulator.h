@@ -11,14 +11,14 @@
 #include "transport/emulator/emergency_parser.h"
 #include "transport/emulator/emulator_options.h"
 #include "transport/emulator/fault_schedule.h"
-#include "transport/emulator/line_acceptance.h"
-#include "transport/emulator/line_assembler.h"
 #include "transport/emulator/machine.h"
-#include "transport/emulator/meatpack_decoder.h"
 #include "transport/emulator/print_record.h"
 #include "transport/emulator/receive_buffer.h"
 #include "transport/emulator/sd_card.h"
 #include "transport/emulator/thermal_protection.h"
+#include "transport/protocol/line_acceptance.h"
+#include "transport/protocol/line_assembler.h"
+#include "transport/protocol/meatpack_decoder.h"
 #include "transport/time.h"
 
 namespace lamina::transport {

@@ -52,7 +52,8 @@ void Emulator::begin_command(Instant now) {
     last_run_ = *running_->program.new_last_line;
     numbered_ = true;
   } else if (!queue_.front().from_card) {
-    if (line.starts_with('N')) count_line(line);
+    // (A line that sets the number is none in the sequence.)
+    if (line.starts_with('N') && line.find("M110") == std::string::npos) count_line(line);
     const bool tail = numbered_ && known && !line.starts_with('N');
     report.unnumbered_commands += tail ? 1 : 0;
     report.unnumbered_moves += tail && classify(command.text) == CommandClass::kMotion ? 1 : 0;

@@ -45,8 +45,10 @@ struct EngineOptions {
   int baud = 115200;
   LineForm form;
 
-  /// Pack the lines where M115 offers it (Cap:MEATPACK:1), until one is damaged on its way.
+  /// Pack the lines where M115 offers it (Cap:MEATPACK:1) and the window has more than one line, from when so
+  /// many bytes of lines were acknowledged without any trouble in either direction, until the first trouble.
   bool meatpack = true;
+  std::size_t meatpack_after = 4096;
   /// For the answer to the request to unpack, and how often it is made before the lines stay as they are.
   Duration meatpack_wait = std::chrono::milliseconds(500);
   int meatpack_requests = 3;

@@ -22,7 +22,9 @@ std::uint8_t checksum(std::string_view text) {
 
 std::string frame_line(LineNumber number, std::string_view command, LineFrame frame) {
   std::string digits = fmt::format("{}", number);
-  if (frame.even_digits && digits.size() % 2 == 1 && number >= 0) digits.insert(0, 1, '0');
+  const bool is_even = digits.size() % 2 == 0;
+  const bool pads = (frame.even_digits && !is_even) || (frame.odd_digits && is_even);
+  if (pads && number >= 0) digits.insert(0, 1, '0');
   std::string line = fmt::format("N{}{}{}", digits, frame.blank ? " " : "", command);
   line += fmt::format("*{}", checksum(line));
   if (line.size() > kMaxLineBytes) throw LineError(std::string(command), line.size(), kMaxLineBytes);

@@ -35,6 +35,8 @@ struct LineFrame {
   /// A zero before a number of an odd count of digits. Packed two to a byte, the number's last digit and the
   /// command's G then share one, so that the firmware's error flush cannot cut a line in front of its G.
   bool even_digits = false;
+  /// The other way round.
+  bool odd_digits = false;
 };
 
 /// `command` as a numbered line with checksum and line end: "N3 G1 X50*5\n". Throws LineError if it would

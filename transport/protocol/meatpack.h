@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lamina::transport {
 
@@ -35,10 +37,17 @@ std::string start(bool no_spaces);
 
 /// `lines`, whole lines with their ends, packed. Every line begins with a byte of its own, so that one that
 /// is lost does not shift the next. Two equal characters never share a byte: the checksum, an exclusive or,
-/// would not notice if noise took that byte away. And N1, at a line's beginning, does not: the
-/// N, half a byte of ones, is one bit from a G, and G1 would be run unchecked. (A byte 00, 11, 22 that noise
-/// puts in goes unnoticed still: against that MeatPack has nothing.) No byte of `lines` may be 0xFF.
-std::string pack(std::string_view lines, bool no_spaces);
+/// would not notice if noise took that byte away. And N1, at a line's beginning, does not: the N, half a byte
+/// of ones, is one bit from a G, and G1 would be run unchecked. A minus, half a byte of ones as well, is one
+/// bit from X and G2, which have its sum; it and what follows it get a byte each. `wide`: pairs of
+/// characters, counted over `lines`, both of which get a byte of their own (a line end at the first place
+/// takes none). No byte of `lines` may be 0xFF.
+std::string pack(std::string_view lines, bool no_spaces, const std::vector<bool>& wide = {});
+
+/// How many bytes, with it, stand for the pair of characters that begins with `byte`.
+std::size_t pair_bytes(char byte);
+/// The pair of characters that begins with `byte` has a line end in it.
+bool ends_line(char byte);
 
 }  // namespace meatpack
 

@@ -13,11 +13,18 @@ namespace {
 
 /// In half bytes.
 constexpr int kPairCost = 2;
+/// Of a minus as the second: more than there is to save elsewhere.
+constexpr int kMinusCost = 100;
 constexpr int kZeroCost = 1;
 constexpr int kNever = std::numeric_limits<int>::max() / 2;
 
 bool is_letter(char c) {
   return c >= 'A' && c <= 'Z';
+}
+
+/// A zero in front of its number could make it another command: G.1 is none, G0.1 is one.
+bool names_command(char letter) {
+  return letter == 'G' || letter == 'M' || letter == 'T';
 }
 
 /// Digits with a point among them or none.
@@ -41,11 +48,11 @@ std::vector<Word> words_of(std::string_view command) {
     while (end < command.size() && !is_letter(command[end])) ++end;
     Word word;
     word.forms[0] = word.forms[1] = std::string(command.substr(0, end));
-    // The command word stays: G01 and M0104 are nobody's habit.
+    // The command word stays, behind a line number, too: G01 and M0104 are nobody's habit.
     const std::size_t number = end > 1 && command[1] == '-' ? 2 : 1;
     const bool has_number = is_number(command.substr(number, end - std::min(end, number)));
     word.plain = is_letter(command[0]) && (end == 1 || has_number);
-    word.may_pad = !words.empty() && has_number;
+    word.may_pad = !words.empty() && has_number && !names_command(command[0]);
     if (word.may_pad) word.forms[1].insert(number, 1, '0');
     words.push_back(std::move(word));
     command.remove_prefix(end);
@@ -53,16 +60,16 @@ std::vector<Word> words_of(std::string_view command) {
   return words;
 }
 
-/// Pairs of equal characters in `text` whose first one has an even place on the line; `before` is the
-/// character in front of it.
-int equal_pairs(std::string_view text, std::size_t place, char before) {
-  int pairs = 0;
+/// What the pairs of characters in `text` cost that cannot share a byte well; `place` is that of its first
+/// character on the line, `before` the character in front of it.
+int pair_costs(std::string_view text, std::size_t place, char before) {
+  int costs = 0;
   for (const char c : text) {
-    if (place % 2 == 1 && c == before) ++pairs;
+    if (place % 2 == 1) costs += c == '-' ? kMinusCost : c == before ? kPairCost : 0;
     before = c;
     ++place;
   }
-  return pairs;
+  return costs;
 }
 
 /// The cheapest way to write the words so far, for an even and for an odd place of what follows.
@@ -88,8 +95,8 @@ std::string packable_form(std::string_view command, std::size_t offset) {
       const char before = best[parity].text.empty() ? '\0' : best[parity].text.back();
       for (std::size_t padded = 0; padded < (word.may_pad ? 2U : 1U); ++padded) {
         const std::string& form = word.forms[padded];
-        const int cost = best[parity].cost + kPairCost * equal_pairs(form, parity, before) +
-                         kZeroCost * static_cast<int>(padded);
+        const int cost =
+            best[parity].cost + pair_costs(form, parity, before) + kZeroCost * static_cast<int>(padded);
         Best& candidate = next[(parity + form.size()) % 2];
         if (cost < candidate.cost) candidate = {cost, best[parity].text + form};
       }

@@ -15,9 +15,6 @@ namespace {
 /// A number that cannot be next: Marlin answers with the number of the last line it took, and runs nothing.
 constexpr LineNumber kImpossibleNumber = 2'000'000'000;
 
-/// Its answer looks like no other ok, so it tells for certain that everything before it has run.
-constexpr std::string_view kReportTemperatures = "M105";
-
 }  // namespace
 
 ProtocolEngine::ProtocolEngine(EngineOptions options)
@@ -50,20 +47,6 @@ void ProtocolEngine::submit(std::string command, LineOrigin origin) {
     return;
   }
   (origin == LineOrigin::kJob ? job_ : injected_).push_back({std::move(command), origin});
-}
-
-void ProtocolEngine::send_urgent(std::string_view command, Instant now) {
-  if (state_ == EngineState::kEnded) return;
-  // The emergency parser sees the bytes as they come, the line reader what the unpacker makes of them: with
-  // that switched off, both see the same.
-  const std::string line = fmt::format("{}\n{}\n{}", encoder_.off(), command, encoder_.on());
-  // Its line end also ends a line whose end is held back.
-  if (outstanding_.last_is_held()) outstanding_.release_last(now, wire_.free());
-  put_out(line, now);
-  statistics_.bytes_sent += static_cast<LineNumber>(line.size());
-  if (outstanding_.empty()) last_progress_ = now;
-  outstanding_.add({std::nullopt, line.size(), CommandClass::kQuick, false, false, false, now, wire_.free()});
-  last_sent_ = now;
 }
 
 void ProtocolEngine::drop_queued() {
@@ -123,7 +106,7 @@ void ProtocolEngine::tick(Instant now) {
         if (now >= last_progress_ + answer_timeout()) start_probe(now, options_.timeouts.probe);
         return;
       }
-      if (now < due_) return;
+      if (now < due_ || ask_for_place(now)) return;
       state_ = EngineState::kStreaming;
       break;
     case EngineState::kProbing:
@@ -135,7 +118,7 @@ void ProtocolEngine::tick(Instant now) {
       }
       ++attempts_;
       question_sent_ = true;
-      encoder_.doubt();
+      encoder_.trouble();
       // An earlier host may have left the unpacker on.
       if (rejoining_ && attempts_ % 2 == 0) put_out(meatpack::control(meatpack::kResetAll) + '\n', now);
       put_out(encoder_.set_right(encoder_.encode(kImpossibleNumber, kReportTemperatures)), now);
@@ -149,6 +132,7 @@ void ProtocolEngine::tick(Instant now) {
     start_probe(now, options_.timeouts.probe);
     return;
   }
+  window_opens_.reset();
   if (settle_packing(now)) send_what_fits(now);
 }
 
@@ -189,6 +173,7 @@ void ProtocolEngine::acknowledge(const OutstandingLine& line) {
   if (!line.number) return;
   if (*line.number >= requested_) requests_ = 0;
   window_.line_acknowledged();
+  encoder_.carried(line.bytes);
   // A line may be acknowledged, asked for again after all, and acknowledged again: it counts once.
   while (acknowledged_next_ <= *line.number) {
     ++statistics_.lines_acknowledged;
@@ -222,94 +207,6 @@ Obstacle ProtocolEngine::obstacle() const {
     default:
       return Obstacle::kNone;
   }
-}
-
-void ProtocolEngine::put_out(std::string_view bytes, Instant now) {
-  output_ += bytes;
-  wire_.sent(bytes.size(), now);
-}
-
-bool ProtocolEngine::settle_packing(Instant now) {
-  if (!encoder_.negotiates(outstanding_.empty())) return true;
-  const std::optional<std::string> request = encoder_.request(now);
-  if (request) {
-    put_out(*request, now);
-  } else {
-    // It cannot after all. What it has read instead of commands is a line begun.
-    put_out(meatpack::control(meatpack::kDisable), now);
-    start_probe(now, options_.drain_quiet);
-  }
-  return false;
-}
-
-void ProtocolEngine::release_end(Instant now) {
-  if (!outstanding_.last_is_held() || outstanding_.lines().size() > 1) return;
-  put_out("\n", now);
-  outstanding_.release_last(now, wire_.free());
-  last_progress_ = now;
-}
-
-std::string ProtocolEngine::eraser() {
-  if (!std::exchange(erase_wanted_, false)) return {};
-  return std::string(kMaxLineBytes, '\b') + '\n';
-}
-
-void ProtocolEngine::send_what_fits(Instant now) {
-  window_opens_.reset();
-  release_end(now);
-  while (true) {
-    const bool again = cursor_ < history_.next();
-    // It would be in the file, and get no answer of its own.
-    if (!again && writes_file_) sync_wanted_ = false;
-    std::deque<QueuedLine>& queue = injected_.empty() ? job_ : injected_;
-    if (!again && !sync_wanted_ && queue.empty()) return;
-    const std::string_view command = again          ? history_.at(cursor_).command
-                                     : sync_wanted_ ? kReportTemperatures
-                                                    : std::string_view(queue.front().command);
-    const std::string bytes = encoder_.encode(cursor_, command);
-    const Leave how = leave(bytes.size(), command, now);
-    if (!how.granted) {
-      if (how.opens) window_opens_ = how.opens;
-      return;
-    }
-    // A new line gets its number only when it goes out, so that an injected one can still overtake a queued
-    // one.
-    if (!again && sync_wanted_) {
-      history_.append(std::string(command), LineOrigin::kProtocol);
-      sync_wanted_ = false;
-    } else if (!again) {
-      history_.append(queue.front().command, queue.front().origin);
-      queue.pop_front();
-    }
-    transmit(history_.at(cursor_), encoder_.set_right(bytes), how, again, now);
-  }
-}
-
-Leave ProtocolEngine::leave(std::size_t bytes, std::string_view command, Instant now) const {
-  // While a blocking line runs only the question whether it still does may follow.
-  if (!outstanding_.empty()) {
-    const OutstandingLine& oldest = outstanding_.oldest();
-    if (oldest.command_class == CommandClass::kBlocking && !(oldest.accepted && sync_wanted_)) return {};
-  }
-  return window_.leave(outstanding_, bytes, command, encoder_.packs(), wire_, now);
-}
-
-void ProtocolEngine::transmit(const NumberedLine& line, const std::string& bytes, const Leave& leave,
-                              bool again, Instant now) {
-  if (outstanding_.empty()) last_progress_ = now;
-  put_out(eraser(), now);
-  put_out(leave.without_end ? std::string_view(bytes).substr(0, bytes.size() - 1) : bytes, now);
-  outstanding_.add({line.number, bytes.size(), classify(line.command),
-                    command_word(line.command) == kReportTemperatures, false, leave.without_end, now,
-                    wire_.free()});
-  const std::string_view word = command_word(line.command);
-  if (word == "M28" || word == "M29") writes_file_ = word == "M28";
-  statistics_.held_lines += leave.without_end ? 1 : 0;
-  last_sent_ = now;
-  cursor_ = line.number + 1;
-  statistics_.bytes_sent += static_cast<LineNumber>(bytes.size());
-  ++(again ? statistics_.lines_sent_again : statistics_.lines_sent);
-  events_.emplace_back(LineSent{line, again});
 }
 
 }  // namespace lamina::transport

@@ -65,10 +65,11 @@ struct EngineStatistics {
 ///
 /// What is promised: lines run in the order submitted (injected ones before waiting job lines), each once. A
 /// line keeps its number when it is sent again, so the firmware's sequence check guards against a second run.
-/// With one line in flight this holds on any link whose damage the checksum can see; with a window, the
-/// firmware may run the tail of a line that its own error flush cut in two (streaming to Marlin has no cure
-/// for that), which comes out as StrayReply. Whatever the printer does, the engine ends or goes on; it waits
-/// without limit only for lines that it is not given.
+/// With one line in flight this holds on any link whose damage the checksum can see, and where a line loses
+/// just its number, which no checksum tells, for moves that show by their ends whether they have run
+/// (lost_number.h). With a window, the firmware may run the tail of a line that its own error flush cut in
+/// two (streaming to Marlin has no cure for that), which comes out as StrayReply. Whatever the printer does,
+/// the engine ends or goes on; it waits without limit only for lines that it is not given.
 ///
 /// Use: connect, then whenever bytes arrive `receive`, when `deadline` is reached `tick`; after each call
 /// write `take_output` to the port and look at `take_events`. Keep it supplied while `wants_line`.
@@ -140,6 +141,9 @@ class ProtocolEngine {
   static constexpr const char* kRestartedInTheMiddle =
       "the printer has restarted in the middle of the print; its heaters are off and its position is lost";
 
+  /// Its answer looks like no other ok, so it tells for certain that everything before it has run.
+  static constexpr std::string_view kReportTemperatures = "M105";
+
   struct QueuedLine {
     std::string command;
     LineOrigin origin;
@@ -152,6 +156,7 @@ class ProtocolEngine {
   void handle_unknown_command(const UnknownCommandReply& unknown, Instant now);
   void handle_start(Instant now);
   void handle_wait(Instant now);
+  void handle_position(const PositionReply& place);
   void handle_capability(const CapabilityReply& capability);
 
   void greet(Instant now);
@@ -160,6 +165,10 @@ class ProtocolEngine {
   void conclude_probe(LineNumber wanted, Instant now);
   void conclude_rejoin(LineNumber wanted, Instant now);
   void end(EndReason reason, std::string detail);
+
+  /// Asks where the printer is, or first which line is next, if that can tell whether it has run that line
+  /// without its number (lost_number.h).
+  bool ask_for_place(Instant now);
 
   /// Sees to it that lines are packed where they can be. False while nothing else may be sent.
   bool settle_packing(Instant now);
@@ -178,6 +187,8 @@ class ProtocolEngine {
                 Instant now);
   void acknowledge(const OutstandingLine& line);
   void stray(const std::string& text);
+  /// What goes out as line `cursor_`, if anything is to.
+  std::optional<std::string_view> next_command() const;
   /// Lines that the printer has and that were not yet acknowledged; a blocking one may take minutes and is
   /// not counted.
   bool older_lines_run() const;
@@ -221,6 +232,15 @@ class ProtocolEngine {
   bool stray_ok_follows_ = false;
   /// The last plain ok was not believed, as it came too early for any line.
   bool early_ok_refused_ = false;
+
+  /// An ok has come that fits no line, or an error that goes with it: a line may have run without its number
+  /// (lost_number.h).
+  bool number_lost_ = false;
+  bool last_number_certain_ = false;  ///< cursor_ is the line that the printer wants
+  int place_questions_left_ = 0;
+  bool place_asked_ = false;
+  bool place_confirms_ = false;  ///< said once that it has run the line; it has to say so again
+  std::optional<LineNumber> ran_without_number_;
 
   LineNumber requested_ = -1;  ///< the line asked for last
   int requests_ = 0;           ///< how often in a row

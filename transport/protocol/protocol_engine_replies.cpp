@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "transport/protocol/lost_number.h"
 #include "transport/protocol/protocol_engine.h"
 
 namespace lamina::transport {
@@ -38,6 +39,7 @@ void ProtocolEngine::handle(const Reply& reply, Instant now) {
   if (const auto* unknown = std::get_if<UnknownCommandReply>(&reply)) handle_unknown_command(*unknown, now);
   if (std::holds_alternative<StartReply>(reply)) handle_start(now);
   if (std::holds_alternative<WaitReply>(reply)) handle_wait(now);
+  if (const auto* place = std::get_if<PositionReply>(&reply)) handle_position(*place);
   if (const auto* capability = std::get_if<CapabilityReply>(&reply)) handle_capability(*capability);
   if (const auto* text = std::get_if<TextReply>(&reply)) encoder_.answered(text->text);
   if (std::holds_alternative<BusyReply>(reply)) {
@@ -98,6 +100,7 @@ void ProtocolEngine::handle_ok(const OkReply& ok, Instant now) {
       acknowledged.push_back(*oldest);
   }
   if (acknowledged.empty()) {
+    number_lost_ = true;
     stray("ok");
     return;
   }
@@ -159,6 +162,7 @@ void ProtocolEngine::handle_resend(const ResendReply& resend, Instant now) {
     stray(fmt::format("Resend: {}", wanted));
     return;
   }
+  number_lost_ = number_lost_ || !announced_error_ || may_lack_number(announced_error_->text);
   events_.emplace_back(ResendRequested{wanted, announced_error_ ? printable(announced_error_->text) : ""});
   go_back_to(wanted, now);
 }
@@ -189,7 +193,9 @@ void ProtocolEngine::handle_unknown_command(const UnknownCommandReply& unknown, 
   if (state_ != EngineState::kStreaming && state_ != EngineState::kDraining &&
       state_ != EngineState::kProbing)
     return;
+  // A question that noise has made something else of is ours, too.
   const bool ours =
+      place_asked_ ||
       std::any_of(outstanding_.lines().begin(), outstanding_.lines().end(), [&](const OutstandingLine& line) {
         return line.number && wire_form(history_.at(*line.number).command, options_.form) == unknown.command;
       });
@@ -221,11 +227,27 @@ void ProtocolEngine::handle_wait(Instant now) {
   if (lost) start_probe(now, options_.drain_quiet);
 }
 
+void ProtocolEngine::handle_position(const PositionReply& place) {
+  // Late, it may find that the line was there all the time.
+  const bool still_open = state_ == EngineState::kDraining && cursor_ < history_.next();
+  if (!std::exchange(place_asked_, false) || !still_open) return;
+  // The ok behind it is that of the question.
+  resend_ok_until_.reset();
+  stray_ok_follows_ = false;
+  const MoveTaken taken = move_taken(history_, cursor_, place);
+  if (taken == MoveTaken::kNo) place_questions_left_ = 0;
+  if (taken != MoveTaken::kYes || !std::exchange(place_confirms_, true)) return;
+  place_questions_left_ = 0;
+  ran_without_number_ = cursor_;
+  stray(fmt::format("line {}, which had lost its number", cursor_));
+}
+
 void ProtocolEngine::handle_capability(const CapabilityReply& capability) {
   if (capability.name == "MEATPACK" && capability.present) encoder_.offered();
 }
 
 void ProtocolEngine::stray(const std::string& text) {
+  encoder_.trouble();
   ++statistics_.stray_replies;
   events_.emplace_back(StrayReply{printable(text)});
 }

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "transport/protocol/command_class.h"
+#include "transport/protocol/command_words.h"
 #include "transport/protocol/line_stripper.h"
-#include "transport/session/command_words.h"
 #include "transport/session/curve_chords.h"
 
 namespace lamina::transport {

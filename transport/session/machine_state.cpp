@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "transport/protocol/command_class.h"
-#include "transport/session/command_words.h"
+#include "transport/protocol/command_words.h"
 
 namespace lamina::transport {
 

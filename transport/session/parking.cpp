@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "transport/session/command_words.h"
+#include "transport/protocol/command_words.h"
 
 namespace lamina::transport {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "transport/session/command_words.h"
+#include "transport/protocol/command_words.h"
 
 namespace lamina::transport {
 

@@ -53,7 +53,10 @@ bool PrintJob::take_discard() {
 std::optional<Instant> PrintJob::deadline() const {
   if (finished()) return std::nullopt;
   std::optional<Instant> due = engine_.deadline();
-  keep_earliest(due, poll_due_);
+  // Elsewhere it is not asked, and an answer that is late may still have set the time for the next question.
+  const bool asks = progress_.phase == JobPhase::kPrinting || progress_.phase == JobPhase::kPausing ||
+                    progress_.phase == JobPhase::kPaused;
+  if (asks) keep_earliest(due, poll_due_);
   keep_earliest(due, look_again_);
   if (progress_.phase == JobPhase::kCancelling) keep_earliest(due, break_due_);
   if (progress_.phase == JobPhase::kPaused) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "transport/emulator/meatpack_decoder.h"
+#include "transport/protocol/meatpack_decoder.h"
 
 namespace lamina::transport {
 

@@ -157,6 +157,8 @@ void read_field(TraceHeader& header, const Line& line) {
     engine.form.blanks = line.number(value) != 0;
   } else if (name == "meatpack") {
     engine.meatpack = line.number(value) != 0;
+  } else if (name == "meatpack_after") {
+    engine.meatpack_after = static_cast<std::size_t>(line.number(value));
   } else if (name == "start_wait_ms") {
     engine.start_wait = std::chrono::milliseconds(line.number(value));
   } else {
@@ -173,10 +175,10 @@ std::string to_text(const TraceHeader& header) {
   const EngineOptions& engine = header.engine;
   return fmt::format(
       "{}\nport {}\nwindow_lines {}\nwindow_bytes {}\nhold_ends {:d}\nbaud {}\nshort_numbers {:d}\nblanks "
-      "{:d}\nmeatpack {:d}\n"
+      "{:d}\nmeatpack {:d}\nmeatpack_after {}\n"
       "start_wait_ms {}\n\n",
       kFirstLine, header.port, engine.window.lines, engine.window.bytes, engine.window.hold_ends, engine.baud,
-      engine.form.short_numbers, engine.form.blanks, engine.meatpack,
+      engine.form.short_numbers, engine.form.blanks, engine.meatpack, engine.meatpack_after,
       engine.start_wait / std::chrono::milliseconds(1));
 }
 

@@ -1,4 +1,4 @@
-#include "transport/session/command_words.h"
+#include "transport/protocol/command_words.h"
 
 #include <array>
 #include <charconv>

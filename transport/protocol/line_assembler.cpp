@@ -1,4 +1,4 @@
-#include "transport/emulator/line_assembler.h"
+#include "transport/protocol/line_assembler.h"
 
 #include <utility>
 

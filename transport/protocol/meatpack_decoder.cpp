@@ -1,4 +1,4 @@
-#include "transport/emulator/meatpack_decoder.h"
+#include "transport/protocol/meatpack_decoder.h"
 
 #include <utility>
 

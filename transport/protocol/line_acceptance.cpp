@@ -1,4 +1,4 @@
-#include "transport/emulator/line_acceptance.h"
+#include "transport/protocol/line_acceptance.h"
 
 #include <charconv>
 #include <cstdint>
