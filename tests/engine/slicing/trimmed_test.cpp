@@ -126,6 +126,26 @@ TEST_CASE("where faces meet in a wave, sections go on without turning back", "[s
   }
 }
 
+TEST_CASE("a plane through the top of a standing disc meets it in a point", "[slicing][trim][touch]") {
+  // Leaning a little, so that neither axis of the surface is level, and turned against the circle's knots.
+  Model model;
+  model.surfaces.push_back(
+      trimmed_plane({0, 0, 0}, {10, 0, 1}, {-1, 0.5, 10}, 0.1, {circle_loop({0.5, 0.5}, 0.4, false)}));
+  const Vector2 slope(1.0, 10.0);  // of the height by u and v
+  const double middle = 0.5 * slope.sum();
+  for (const double side : {-1.0, 1.0}) {
+    const double z = middle + side * 0.4 * slope.norm();
+    const Layer layer = layer_at(model, z);
+    CAPTURE(z);
+    REQUIRE(layer.points.size() == 1);
+    const Vector2 at = Vector2(0.5, 0.5) + side * 0.4 * slope.normalized();
+    const Vector2 expected(10.0 * at.x() - at.y(), 0.5 * at.y());
+    CHECK((layer.points.front().position - expected).norm() < 1e-4);
+    CHECK(layer.open.empty());
+    CHECK(layer_at(model, z - side * 1e-3).open.size() == 1);
+  }
+}
+
 TEST_CASE("posed at random: trimmed and untrimmed have the same sections", "[slicing][trim]") {
   constexpr unsigned kSeed = 11;
   INFO("seed " << kSeed);
