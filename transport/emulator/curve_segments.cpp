@@ -8,6 +8,8 @@ namespace lamina::transport {
 
 namespace {
 
+/// Of an arc that is larger than any printer: it is not followed more finely.
+constexpr double kMostChords = 1e6;
 constexpr double kMinChord = 0.1;  // mm
 constexpr double kMaxChord = 1.0;  // mm
 constexpr double kMinChordsOfCircle = 72;
@@ -74,6 +76,7 @@ std::vector<MachinePosition> arc_segments(const MachinePosition& start, const Ma
   double count = std::max(std::floor(length / kMaxChord), at_least);
   if (length / count > kMaxChord) count = std::ceil(length / kMaxChord);
   if (length / count < kMinChord) count = std::max(1.0, std::floor(length / kMinChord));
+  count = std::min(count, kMostChords);
 
   std::vector<MachinePosition> points;
   const auto chords = static_cast<int>(count);

@@ -1,6 +1,9 @@
 #include "transport/emulator/gcode_command.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 namespace lamina::transport {
 
@@ -31,6 +34,14 @@ std::optional<double> take_number(std::string_view& text) {
 }
 
 }  // namespace
+
+std::optional<int> GcodeCommand::integer(char parameter) const {
+  const std::optional<double> number = value(parameter);
+  if (!number || std::isnan(*number)) return std::nullopt;
+  constexpr double kLeast = std::numeric_limits<int>::min();
+  constexpr double kMost = std::numeric_limits<int>::max();
+  return static_cast<int>(std::clamp(*number, kLeast, kMost));
+}
 
 GcodeCommand parse_gcode_command(std::string_view line) {
   GcodeCommand command;

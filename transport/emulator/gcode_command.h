@@ -20,6 +20,9 @@ struct GcodeCommand {
   /// The value of `parameter`; none if it was not given, or without a number.
   std::optional<double> value(char parameter) const { return values[index(parameter)]; }
 
+  /// The same as a whole number, cut off towards zero and at the ends of what an int holds.
+  std::optional<int> integer(char parameter) const;
+
   std::array<bool, 26> seen{};
   std::array<std::optional<double>, 26> values{};
 

@@ -31,7 +31,8 @@ bool ProgramMaker::card_code() {
       card_.pause();
       return true;
     case 26:
-      if (card_.selected()) card_.seek(static_cast<std::size_t>(std::max(0.0, value('S', 0))));
+      if (card_.selected())
+        card_.seek(static_cast<std::size_t>(std::max(0, command_.integer('S').value_or(0))));
       return true;
     case 27:
       if (command_.has('S')) {

@@ -11,6 +11,13 @@
 
 namespace lamina::transport {
 
+namespace {
+
+/// Besides an arc, in one command.
+constexpr int kMostCircles = 100;
+
+}  // namespace
+
 bool ProgramMaker::g_code() {
   switch (command_.code) {
     case 0:
@@ -68,9 +75,13 @@ void ProgramMaker::arc() {
     return given ? std::optional(*given * unit) : std::nullopt;
   };
   const std::optional<double> radius = length('R');
-  const std::optional<Arc> arc =
-      radius ? arc_by_radius(start, end, *radius, clockwise)
-             : arc_by_center(start, length('I'), length('J'), clockwise, static_cast<int>(value('P', 0)));
+  const int circles = command_.integer('P').value_or(0);
+  std::optional<Arc> arc;
+  if (radius) {
+    arc = arc_by_radius(start, end, *radius, clockwise);
+  } else if (circles >= 0 && circles <= kMostCircles) {
+    arc = arc_by_center(start, length('I'), length('J'), clockwise, circles);
+  }
   if (!arc) {
     say("Error:G2/G3 bad parameters\n");
     return;

@@ -69,10 +69,10 @@ void ProgramMaker::change_filament() {
 void ProgramMaker::cancel_objects() {
   Machine::Objects& objects = machine_.objects();
   if (command_.has('T')) objects = {};
-  if (const auto object = command_.value('S')) objects.current = static_cast<int>(*object);
+  if (const auto object = command_.integer('S')) objects.current = *object;
   if (command_.has('C')) objects.cancelled.insert(objects.current);
-  if (const auto object = command_.value('P')) objects.cancelled.insert(static_cast<int>(*object));
-  if (const auto object = command_.value('U')) objects.cancelled.erase(static_cast<int>(*object));
+  if (const auto object = command_.integer('P')) objects.cancelled.insert(*object);
+  if (const auto object = command_.integer('U')) objects.cancelled.erase(*object);
 }
 
 void ProgramMaker::prompt(const std::string& words, std::initializer_list<const char*> buttons) {
