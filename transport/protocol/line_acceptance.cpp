@@ -1,18 +1,22 @@
 #include "transport/protocol/line_acceptance.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <limits>
 
 namespace lamina::transport {
 
 namespace {
 
-/// The number at the start of `text` after blanks, as C's strtol reads it: 0 where there is none.
+/// The number at the start of `text` after blanks, as C's strtol reads it on printers: 0 where there is none,
+/// and not beyond 32 bits.
 LineNumber number_at(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   LineNumber number = 0;
   std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
+  return std::clamp<LineNumber>(number, std::numeric_limits<std::int32_t>::min(),
+                                std::numeric_limits<std::int32_t>::max());
 }
 
 }  // namespace
