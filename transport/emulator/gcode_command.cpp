@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <limits>
 
 namespace lamina::transport {
@@ -21,10 +20,18 @@ void skip_digits(std::string_view& text) {
   while (!text.empty() && is_digit(text.front())) text.remove_prefix(1);
 }
 
+/// Whether a number begins here: a digit, perhaps behind a sign and a point. "nan" and "inf" are none.
+bool begins_number(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  if (text.starts_with('.')) text.remove_prefix(1);
+  return !text.empty() && is_digit(text.front());
+}
+
 /// The number at the start of `text`, taken off it.
 std::optional<double> take_number(std::string_view& text) {
   std::string_view digits = text;
   if (digits.starts_with('+')) digits.remove_prefix(1);
+  if (!begins_number(digits)) return std::nullopt;
   double value = 0;
   const auto [end, error] =
       std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
@@ -37,7 +44,7 @@ std::optional<double> take_number(std::string_view& text) {
 
 std::optional<int> GcodeCommand::integer(char parameter) const {
   const std::optional<double> number = value(parameter);
-  if (!number || std::isnan(*number)) return std::nullopt;
+  if (!number) return std::nullopt;
   constexpr double kLeast = std::numeric_limits<int>::min();
   constexpr double kMost = std::numeric_limits<int>::max();
   return static_cast<int>(std::clamp(*number, kLeast, kMost));

@@ -16,7 +16,7 @@ bool ProgramMaker::report_code() {
       say(fmt::format("echo:Print time: {:.0f}s\n", to_seconds(now_.time_since_epoch())));
       return true;
     case 110:
-      if (const auto number = command_.value('N')) program_.new_last_line = std::llround(*number);
+      program_.new_last_line = command_.integer('N');
       return true;
     case 112:
       add(KillStep{});
