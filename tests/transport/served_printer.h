@@ -41,10 +41,12 @@ inline transport::EmulatorServerOptions fast_printer() {
   return options;
 }
 
-/// Does not wait long for a printer to say `start`.
+/// Does not wait long for a printer to say `start`, and knows no baud rate: a printer whose time runs faster
+/// answers sooner than any wire could, which the engine would take for answers to other lines.
 inline transport::PrintJobOptions quick_start() {
   transport::PrintJobOptions options;
   options.engine.start_wait = std::chrono::milliseconds(200);
+  options.engine.baud = 0;
   return options;
 }
 
