@@ -205,15 +205,15 @@ bool PatchSection::emit_monotone(const double* net, const Rectangle& r, Directio
   if (!(first.t < last.t)) return true;
 
   const LineCrossing line{other(solved), 0.0, s0, s1, rising};
-  const auto point_at = [&](const End& end, std::ptrdiff_t at) {
+  const auto end_point = [&](const End& end, std::ptrdiff_t at) {
     if (end.on_edge) return *end.on_edge;
     LineCrossing across = line;
     across.at = end.t;
     across.guess = zero_between(s0, low_edge[at], s1, high_edge[at]);
     return crossing_on_line(*patch_, z_, across);
   };
-  const CrossingPoint start = point_at(first, 0);
-  const CrossingPoint end = point_at(last, (count - 1) * stride);
+  const CrossingPoint start = end_point(first, 0);
+  const CrossingPoint end = end_point(last, (count - 1) * stride);
   // The outward normal lies on the right when v falls where the height rises with u, and u rises where it
   // rises with v.
   const bool flipped = by_u == rising;

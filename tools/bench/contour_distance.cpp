@@ -1,20 +1,11 @@
 #include "tools/bench/contour_distance.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "engine/geometry/segment_distance.h"
 
 namespace lamina::tools {
-namespace {
-
-double distance_to_segment(const engine::Vector2& place, const engine::Vector2& from,
-                           const engine::Vector2& to) {
-  const engine::Vector2 along = to - from;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((place - from).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (from + t * along - place).norm();
-}
-
-}  // namespace
-
 std::vector<const engine::PieceCurve*> curves_of(const engine::Layer& layer) {
   std::vector<const engine::PieceCurve*> curves;
   for (const engine::ClosedContour& contour : layer.closed) curves.push_back(&contour.curve);
@@ -52,7 +43,7 @@ ContourDistance::ContourDistance(const engine::Layer& layer, double tolerance) {
 
 double ContourDistance::distance(const engine::Vector2& place, double enough) const {
   return bins_.nearest(place, enough, [&](std::uint32_t item, double) {
-    return distance_to_segment(place, segments_[item].from, segments_[item].to);
+    return std::sqrt(engine::squared_distance(place, segments_[item].from, segments_[item].to));
   });
 }
 

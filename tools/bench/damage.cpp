@@ -1,6 +1,7 @@
 #include "tools/bench/damage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
@@ -9,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "engine/geometry/segment_distance.h"
 #include "engine/import/read_model.h"
 
 namespace lamina::tools {
@@ -58,14 +60,6 @@ void add_facets(const std::set<Corners>& facets, const std::set<Corners>& of_oth
   }
 }
 
-double distance_to_segment(const engine::Vector3& place, const engine::Vector3& from,
-                           const engine::Vector3& to) {
-  const engine::Vector3 along = to - from;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((place - from).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (from + t * along - place).norm();
-}
-
 double distance_to_triangle(const engine::Vector3& place, const Triangle& corners) {
   const engine::Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   bool above = normal.squaredNorm() > 0.0;
@@ -73,7 +67,7 @@ double distance_to_triangle(const engine::Vector3& place, const Triangle& corner
   for (std::size_t k = 0; k < 3; ++k) {
     const engine::Vector3& from = corners[k];
     const engine::Vector3& to = corners[(k + 1) % 3];
-    to_sides = std::min(to_sides, distance_to_segment(place, from, to));
+    to_sides = std::min(to_sides, std::sqrt(engine::squared_distance(place, from, to)));
     above = above && (to - from).cross(place - from).dot(normal) >= 0.0;
   }
   return above ? std::abs((place - corners[0]).dot(normal)) / normal.norm() : to_sides;
